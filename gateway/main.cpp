@@ -96,6 +96,8 @@ struct CommandLine {
             ->type_name("HOST:PORT");
         twin->add_option("--time-scale", twin_options.time_scale, "how many times as fast the drives' clock runs, 0.001 to 10000")
             ->type_name("X");
+        twin->add_option("--specimen", twin_options.specimen, "which drive of the family: a seed, or slow, sparse, strict, chatty, weak, old")
+            ->type_name("N|NAME");
         twin->add_option("--option", twin_options.options, "an option of the family, such as crc=13; may be repeated")
             ->type_name("NAME=VALUE")
             ->allow_extra_args(false);
@@ -111,14 +113,40 @@ struct CommandLine {
             ->check(CLI::IsMember({"parameters", "commands", "errors"}));
         catalogue->add_option("--format", catalogue_format, "table, csv or json")->check(CLI::IsMember({"table", "csv", "json"}));
 
+        specimen = app.add_subcommand("specimen", "the freedoms of a family's simulated drive, or one specimen of it in words");
+        specimen->add_option("family", specimen_family, "family, see `axisgate families`")->required()->type_name("FAMILY");
+        specimen->add_option("specimen", specimen_name, "a seed (0 is the drive as its manual shows it), or slow, sparse, strict, chatty, weak, old")
+            ->type_name("N|NAME");
+        specimen->add_flag("--json", specimen_json, "as JSON");
+
         decode = app.add_subcommand("decode", "one readable line per recorded frame");
         decode->add_option("family", decode_family)->required()->type_name("FAMILY");
         decode->add_option("--format", decode_format, "candump, hex (lines of bytes, > to the drive, < from it) or trace")
             ->check(CLI::IsMember({"candump", "hex", "trace"}));
         decode->add_option("file", decode_file, "recorded line; - or nothing: standard input")->type_name("FILE");
 
+        add_rehearse();
+
         replay = app.add_subcommand("replay", "play a recording again, and tell where this program does otherwise");
         replay->add_option("file", replay_file)->required()->type_name("FILE.axr");
+    }
+
+    void add_rehearse() {
+        rehearse = app.add_subcommand("rehearse", "run a recipe in virtual time against many specimens of the site's drives");
+        rehearse->add_option("--recipe", rehearse_options.recipe, "name of a stored recipe, or a file (.json)")->required()->type_name("NAME|FILE.json");
+        rehearse->add_option("--specimens", rehearse_options.specimens, "seeds and names, such as 1..100 (default) or 0,17,slow,weak")
+            ->type_name("LIST");
+        rehearse
+            ->add_option("--family-specimen", rehearse_options.fixed, "drives of this family are the same specimen in all runs; may be repeated")
+            ->type_name("FAMILY=N")
+            ->allow_extra_args(false);
+        rehearse->add_option("--argument", rehearse_options.arguments, "an argument of the recipe; may be repeated")
+            ->type_name("NAME=VALUE")
+            ->allow_extra_args(false);
+        rehearse->add_flag("--json", rehearse_options.json, "as JSON");
+        add_config(*rehearse, rehearse_common, false);
+        rehearse->add_option("--site", rehearse_options.site_file, "site document with the drives (default: the stored site)")
+            ->type_name("FILE.json");
     }
 
     void add_backup() {
@@ -184,6 +212,7 @@ struct CommandLine {
         if (*pki) return command_pki(pki_options);
         if (*families) return command_families(families_format);
         if (*catalogue) return command_catalogue(catalogue_family, catalogue_what, catalogue_format);
+        if (*specimen) return command_specimen(specimen_family, specimen_name, specimen_json);
         if (*decode) return command_decode(decode_family, decode_format, decode_file);
         if (*replay) return command_replay(replay_file);
         if (*twin) return command_twin(twin_options);
@@ -205,6 +234,7 @@ struct CommandLine {
             bool read = true;
             return command_bundle(sources_of(bundle_common, read), config, bundle_file);
         }
+        if (*rehearse) return config_of(rehearse_common, config) ? command_rehearse(config, rehearse_options) : exit_usage;
         if (*health) return config_of(health_common, config) ? command_health(config) : exit_usage;
         if (*backup) {
             if (!config_of(backup_common, config)) return exit_usage;
@@ -219,14 +249,17 @@ struct CommandLine {
     }
 
     CLI::App& app;
-    CLI::App *serve = nullptr, *twin = nullptr, *families = nullptr, *catalogue = nullptr, *decode = nullptr, *replay = nullptr,
+    CLI::App *serve = nullptr, *twin = nullptr, *families = nullptr, *catalogue = nullptr, *specimen = nullptr, *decode = nullptr, *rehearse = nullptr, *replay = nullptr,
              *check = nullptr, *backup = nullptr, *restore = nullptr, *bundle = nullptr, *health = nullptr, *pki = nullptr,
              *version = nullptr, *help = nullptr;
-    Common serve_common, check_common, backup_common, restore_common, bundle_common, health_common;
+    Common serve_common, check_common, rehearse_common, backup_common, restore_common, bundle_common, health_common;
     TwinOptions twin_options;
     std::string families_format = "table";
     std::string catalogue_family, catalogue_what = "parameters", catalogue_format = "table";
+    std::string specimen_family, specimen_name;
+    bool specimen_json = false;
     std::string decode_family, decode_format = "candump", decode_file = "-";
+    RehearseOptions rehearse_options;
     std::string replay_file;
     std::string backup_file, backup_passphrase_file, bundle_file;
     RestoreOptions restore_options;

@@ -10,8 +10,8 @@
 
 #include "gateway/core/assets.hpp"
 #include "gateway/runtime/bundle.hpp"
-#include "gateway/runtime/catalogues.hpp"
 #include "gateway/runtime/clock.hpp"
+#include "gateway/runtime/command_tables.hpp"
 #include "gateway/runtime/config_host.hpp"
 #include "gateway/runtime/door_http.hpp"
 #include "gateway/runtime/files.hpp"
@@ -28,68 +28,10 @@ namespace json = boost::json;
 void complain(const std::string& text) { fmt::print(stderr, "axisgate: {}\n", text); }
 
 namespace {
-using Row = std::vector<std::string>;
-
-void print_table(const Row& head, const std::vector<Row>& rows) {
-    std::vector<std::size_t> width(head.size());
-    const auto measure = [&](const Row& r) {
-        for (std::size_t i = 0; i < r.size(); ++i)
-            width[i] = std::max(width[i], r[i].size());
-    };
-    measure(head);
-    for (const auto& r : rows)
-        measure(r);
-    const auto print = [&](const Row& r) {
-        std::string line;
-        for (std::size_t i = 0; i < r.size(); ++i)
-            line += i + 1 < r.size() ? fmt::format("{:<{}}  ", r[i], width[i]) : r[i];
-        fmt::print("{}\n", line);
-    };
-    print(head);
-    for (const auto& r : rows)
-        print(r);
-}
-
-std::string csv_field(const std::string& s) {
-    if (s.find_first_of(",\"\r\n") == std::string::npos) return s;
-    std::string out = "\"";
-    for (const char c : s)
-        out += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return out + "\"";
-}
-
-void print_csv(const Row& head, const std::vector<Row>& rows) {
-    const auto print = [](const Row& r) {
-        std::string line;
-        for (const auto& f : r)
-            line += (line.empty() && &f == &r.front() ? "" : ",") + csv_field(f);
-        fmt::print("{}\r\n", line);  // RFC 4180
-    };
-    print(head);
-    for (const auto& r : rows)
-        print(r);
-}
-
 std::string plain(const json::value* v) {
     if (!v || v->is_null()) return "";
     if (v->is_string()) return std::string(v->get_string());
     return json::serialize(*v);
-}
-
-std::optional<FamilyEntry> family_named(const Families& families, const std::string& name) {
-    const auto e = families.find(name);
-    if (e.family) return e;
-    complain(fmt::format("there is no family {}; families: {}", name, families.names()));
-    return std::nullopt;
-}
-
-std::optional<Families> families_or_complain() {
-    std::vector<std::string> faults;
-    auto families = load_families(faults);
-    for (const auto& f : faults)
-        complain(f);
-    if (!faults.empty()) return std::nullopt;
-    return families;
 }
 
 constexpr std::string_view parameter_fields[] = {"id",      "name",   "group",   "type",        "unit",       "min",  "max",
@@ -109,7 +51,7 @@ int command_families(const std::string& format) {
     const auto families = families_or_complain();
     if (!families) return exit_failed;
     json::array list;
-    std::vector<Row> rows;
+    std::vector<TableRow> rows;
     for (const auto& e : families->entries) {
         const auto& doc = e.catalogue->document();
         std::string lines = e.family->uses_can && e.family->uses_bytes ? "can, bytes" : e.family->uses_can ? "can" : "bytes";
@@ -137,14 +79,14 @@ int command_families(const std::string& format) {
 int command_catalogue(const std::string& family, const std::string& what, const std::string& format) {
     const auto families = families_or_complain();
     if (!families) return exit_failed;
-    const auto entry = family_named(*families, family);
+    const auto entry = family_or_complain(*families, family);
     if (!entry) return exit_usage;
     const auto* list = entry->catalogue->document().if_contains(what);
     if (!list || !list->is_array()) {
         complain(fmt::format("a catalogue has parameters, commands and errors, not {}", what));
         return exit_usage;
     }
-    Row head;
+    TableRow head;
     if (what == "parameters") {
         for (const auto f : parameter_fields)
             head.emplace_back(f);
@@ -166,9 +108,9 @@ int command_catalogue(const std::string& family, const std::string& what, const 
         fmt::print("{}\n", json::serialize(out));
         return exit_good;
     }
-    std::vector<Row> rows;
+    std::vector<TableRow> rows;
     for (const auto& item : list->get_array()) {
-        Row r;
+        TableRow r;
         for (const auto& f : head)
             r.push_back(cell(f, item.get_object().if_contains(f)));
         rows.push_back(std::move(r));

@@ -21,6 +21,8 @@ struct ServeOptions {
 
 [[nodiscard]] int command_families(const std::string& format);
 [[nodiscard]] int command_catalogue(const std::string& family, const std::string& what, const std::string& format);
+/// Prints the freedoms of a family, or, if `specimen` is not empty, that specimen in words.
+[[nodiscard]] int command_specimen(const std::string& family, const std::string& specimen, bool as_json);
 [[nodiscard]] int command_decode(const std::string& family, const std::string& format, const std::string& file);
 /// Plays a recording (.axr) again and prints the differences of this program.
 [[nodiscard]] int command_replay(const std::string& file);
@@ -51,9 +53,21 @@ struct TwinOptions {
     std::string state_file;
     std::string hand_bind;
     double time_scale = 1.0;
+    std::string specimen;              ///< a seed or a name; empty: the drive as its manual shows it
     std::vector<std::string> options;  ///< "name=value" for the twins
 };
 [[nodiscard]] int command_twin(const TwinOptions& options);
+
+struct RehearseOptions {
+    std::string site_file;  ///< empty: the stored site, with the memories of its twins
+    std::string recipe;     ///< a stored recipe, or a file (*.json)
+    std::string specimens = "1..100";
+    std::vector<std::string> fixed;      ///< "family=specimen"
+    std::vector<std::string> arguments;  ///< "name=value" of the recipe
+    bool json = false;
+};
+/// Plays a recipe against specimens of the site's drives in virtual time and prints a table. Exit code 1 if it fails with one of them.
+[[nodiscard]] int command_rehearse(const Config& config, const RehearseOptions& options);
 
 /// "axisgate: TEXT" on standard error.
 void complain(const std::string& text);

@@ -15,8 +15,8 @@
 #include "gateway/core/line_uri.hpp"
 #include "gateway/doors/http/hand_server.hpp"
 #include "gateway/lines/make_line.hpp"
-#include "gateway/runtime/catalogues.hpp"
 #include "gateway/runtime/clock.hpp"
+#include "gateway/runtime/command_tables.hpp"
 #include "gateway/runtime/commands.hpp"
 #include "gateway/runtime/files.hpp"
 #include "gateway/runtime/memory_file.hpp"
@@ -222,6 +222,11 @@ std::optional<TwinPlan> plan_of(const TwinOptions& o, const FamilyEntry& entry) 
             plan.options[name] = value;
         }
     }
+    if (!o.specimen.empty()) {
+        if (const std::string wrong = check_option(*entry.catalogue, {OptionOf::twin}, "specimen", o.specimen); !wrong.empty())
+            refuse("--specimen: " + wrong);
+        if (!plan.options.emplace("specimen", o.specimen).second) refuse("--specimen: --option names a specimen, too; leave one of them out");
+    }
     if (usable && !o.state_file.empty()) {
         std::string fault;
         if (const auto text = read_file(o.state_file, fault)) {
@@ -268,23 +273,17 @@ std::unique_ptr<http::HandServer> hand_server(TwinHost& host, boost::asio::io_co
 }  // namespace
 
 int command_twin(const TwinOptions& o) {
-    std::vector<std::string> faults;
-    const auto families = load_families(faults);
-    for (const auto& f : faults)
-        complain(f);
-    if (!faults.empty()) return exit_failed;
-    const auto entry = families.find(o.family);
-    if (!entry.family) {
-        complain(fmt::format("there is no family {}; families: {}", o.family, families.names()));
-        return exit_usage;
-    }
-    const auto plan = plan_of(o, entry);
+    const auto families = families_or_complain();
+    if (!families) return exit_failed;
+    const auto entry = family_or_complain(*families, o.family);
+    if (!entry) return exit_usage;
+    const auto plan = plan_of(o, *entry);
     if (!plan) return exit_usage;
 
     (void)std::signal(SIGPIPE, SIG_IGN);
     boost::asio::io_context io{1};
     TwinHost host(io, o.time_scale, o.state_file);
-    connect_drives(host, io, o, entry, *plan);
+    connect_drives(host, io, o, *entry, *plan);
     const auto hand = hand_server(host, io, o.hand_bind);
     if (const std::string fault = hand ? hand->open() : ""; !fault.empty()) {
         complain(fault);

@@ -9,6 +9,7 @@
 #include "gateway/axis/cia402.hpp"
 #include "gateway/core/parameter_form.hpp"
 #include "gateway/core/text.hpp"
+#include "gateway/services/specimens.hpp"
 
 namespace axisgate {
 namespace json = boost::json;
@@ -360,6 +361,7 @@ json::object family_document(const FamilyEntry& entry) {
     o["parameters"] = entry.catalogue->parameters().size();
     o["commands"] = entry.catalogue->commands().size();
     o["errors"] = entry.catalogue->errors().size();
+    o["freedoms"] = freedoms_document(*entry.catalogue);
     return o;
 }
 

@@ -133,6 +133,7 @@ Handled open_stream(Call&);
 // --- handlers_catalogue.cpp -------------------------------------------------------------------------------------------
 Handled list_families(Call&, const SitePort&);
 Handled get_family(Call&, const SitePort&);
+Handled get_specimen(Call&, const SitePort&);
 Handled list_family_parameters(Call&, const SitePort&);
 Handled list_family_commands(Call&, const SitePort&);
 Handled list_family_errors(Call&, const SitePort&);

@@ -1,6 +1,8 @@
 // Handlers of the catalogue: families, their parameters, commands and error codes, which are constant while the program runs.
+#include "gateway/core/specimen.hpp"
 #include "gateway/doors/http/handlers.hpp"
 #include "gateway/services/documents.hpp"
+#include "gateway/services/specimens.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
@@ -28,6 +30,13 @@ Handled get_family(Call& c, const SitePort& sites) {
     const auto entry = sites.families().find(c.names[0]);
     if (!entry.family || !entry.catalogue) return nothing_named("family", c.names[0]);
     return json_response(family_document(entry));
+}
+
+Handled get_specimen(Call& c, const SitePort& sites) {
+    const auto entry = sites.families().find(c.names[0]);
+    if (!entry.family || !entry.catalogue) return nothing_named("family", c.names[0]);
+    if (const std::string wrong = check_specimen(c.names[1]); !wrong.empty()) return problem(404, "not_found", wrong);
+    return json_response(specimen_document(*entry.catalogue, c.names[1]));
 }
 
 Handled list_family_parameters(Call& c, const SitePort& sites) {

@@ -17,6 +17,7 @@ constexpr std::array routes{
     Route{"/api/v1/about", Method::get, take<get_about>},
     Route{"/api/v1/families", Method::get, take<list_families>},
     Route{"/api/v1/families/{family}", Method::get, take<get_family>},
+    Route{"/api/v1/families/{family}/specimens/{specimen}", Method::get, take<get_specimen>},
     Route{"/api/v1/families/{family}/parameters", Method::get, take<list_family_parameters>},
     Route{"/api/v1/families/{family}/commands", Method::get, take<list_family_commands>},
     Route{"/api/v1/families/{family}/errors", Method::get, take<list_family_errors>},

@@ -27,6 +27,9 @@ inline constexpr std::string_view catalogue_text = R"({
   ],
   "commands": [{"id": "BG", "name": "begin", "description": "Starts.", "confirm": "The axis moves."},
     {"id": "GO", "name": "go", "arguments": [{"name": "position", "type": "i32", "unit": "mm", "scale": 0.0001}, {"name": "speed", "type": "u16", "default": 5}]}],
+  "freedoms": [
+    {"name": "reply_ms", "unit": "ms", "min": 0, "max": 200, "default": 0, "description": "an answer comes this late", "source": "silent", "named": {"slow": 200}},
+    {"name": "echo", "min": 0, "max": 1, "default": 1, "values": {"0": "off", "1": "on"}, "description": "commands are repeated", "source": "L12"}],
   "errors": [{"code": 49, "kind": "error", "name": "overcurrent", "text": "too much current", "cause": "short", "remedy": "look"}]
 })";
 

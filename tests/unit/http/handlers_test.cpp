@@ -79,6 +79,25 @@ TEST_F(HttpTest, Catalogue) {
         EXPECT_EQ(call("GET", path).status, 404u);
 }
 
+TEST_F(HttpTest, SpecimensOfAFamily) {
+    EXPECT_EQ(
+        call("GET", "/api/v1/families/demo").at("freedoms"),
+        R"([{"name":"reply_ms","unit":"ms","min":0,"max":200,"default":0,"values":{},"named":{"slow":200},"source":"silent","description":"an answer comes this late"},)"
+        R"({"name":"echo","unit":null,"min":0,"max":1,"default":1,"values":{"0":"off","1":"on"},"named":{},"source":"L12","description":"commands are repeated"}])");
+    EXPECT_EQ(call("GET", "/api/v1/families/demo/specimens/slow").text,
+              R"({"family":"demo","specimen":"slow","values":{"reply_ms":200,"echo":1},"words":["reply_ms = 200 ms: an answer comes this late"]})");
+    EXPECT_EQ(call("GET", "/api/v1/families/demo/specimens/0").text,
+              R"({"family":"demo","specimen":"0","values":{"reply_ms":0,"echo":1},"words":[]})");
+    bool differs = false;  // half of the freedoms of a seed keep the manual's value, so one of a few seeds has another echo
+    for (int seed = 1; seed < 10 && !differs; ++seed)
+        differs = call("GET", "/api/v1/families/demo/specimens/" + std::to_string(seed)).text.find("echo = 0 (off)") != std::string::npos;
+    EXPECT_TRUE(differs);
+    const auto none = call("GET", "/api/v1/families/demo/specimens/fast");
+    EXPECT_EQ(none.status, 404u);
+    EXPECT_NE(none.text.find("write a seed from 0"), std::string::npos) << none.text;
+    EXPECT_EQ(call("GET", "/api/v1/families/x/specimens/1").status, 404u);
+}
+
 // --- axes -------------------------------------------------------------------------------------------------------------
 
 TEST_F(HttpTest, AxisDocument) {

@@ -239,6 +239,7 @@ TEST_F(OpenApiDocuments, HaveTheRequiredMembers) {
 
     expect_required(call("GET", "/api/v1/about").json, "About");
     expect_required(call("GET", "/api/v1/families/demo").json, "Family");
+    expect_required(call("GET", "/api/v1/families/demo/specimens/17").json, "Specimen");
     expect_required(call("GET", "/api/v1/families/demo/parameters").array()[0], "Parameter");
     expect_required(call("GET", "/api/v1/families/demo/commands").array()[0], "CatalogueCommand");
     expect_required(call("GET", "/api/v1/families/demo/errors").array()[0], "ErrorCode");

@@ -1,0 +1,87 @@
+// A gateway in virtual time whose drives are all simulated, with the ports that the recipe service needs. It has no connection to a line,
+// to a store or to the running gateway. Bounds: the events of one rehearsal are not kept, only the newest warning of a drive.
+#pragma once
+
+#include <boost/json/object.hpp>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gateway/engine/engine.hpp"
+#include "gateway/services/ports/axes.hpp"
+#include "gateway/services/ports/clock.hpp"
+#include "gateway/services/ports/documents.hpp"
+#include "gateway/services/ports/events.hpp"
+#include "gateway/services/ports/site.hpp"
+
+namespace axisgate {
+
+/// The site with every drive simulated: lines become twin lines with the same medium and bit rate.
+[[nodiscard]] Site simulated_site(Site site, const Families& families);
+
+class RehearsalGateway final : public EngineHost, public AxisPort, public ClockPort, public DocumentPort, public EventPort, public SitePort {
+public:
+    /// `site` is one of simulated_site. The drives are switched on at once; they are searched for and identified in the first steps.
+    RehearsalGateway(const Families& families, Site site, const SiteMemory& memory, Duration lease);
+
+    [[nodiscard]] Instant now() const noexcept { return now_; }
+    /// Advances to the next event of the gateway, `due` at the latest, and delivers the results of commands.
+    void step(Instant due);
+    [[nodiscard]] bool online(AxisId axis) const;
+    /// The newest warning or error of an axis, a drive or a line, with its name; empty: none.
+    [[nodiscard]] const std::string& last_warning() const noexcept { return last_warning_; }
+    void forget_warning() { last_warning_.clear(); }
+
+    // --- AxisPort
+    [[nodiscard]] AxisPicture picture(AxisId axis) const override;
+    [[nodiscard]] std::uint64_t picture_revision(AxisId axis) const override;
+    Ticket submit(Command command, std::function<void(const Result&)> then) override;
+    void set_point(SetPoint set_point) override { (void)engine_.on_set_point(set_point, now_); }
+    void client_lost(const AuthorityClient& who, LossCause cause) override { engine_.on_client_lost(who, cause, now_); }
+    // --- ClockPort: the wall clock begins at 1970-01-01
+    [[nodiscard]] std::int64_t now_unix_ns() const override { return to_unix_ns(now_); }
+    [[nodiscard]] std::int64_t to_unix_ns(Instant instant) const override { return (instant - time_zero).count(); }
+    // --- DocumentPort: reports of the run are not kept
+    [[nodiscard]] std::vector<Document> documents(const std::string&) const override { return {}; }
+    [[nodiscard]] std::optional<Document> document(const std::string&, const std::string&) const override { return {}; }
+    void save_document(const std::string&, Document, std::function<void(std::string)> then) override { then(""); }
+    void delete_document(const std::string&, const std::string&, std::function<void(std::string)> then) override { then(""); }
+    // --- EventPort
+    [[nodiscard]] std::vector<Event> events(const EventQuery&) const override { return {}; }
+    void note(Event) override {}
+    void listen(EventListener*) override {}
+    void unlisten(EventListener*) override {}
+    // --- SitePort: the site does not change
+    [[nodiscard]] std::shared_ptr<const SiteState> site() const override { return engine_.site(); }
+    [[nodiscard]] const Families& families() const override { return families_; }
+    void apply_site(Site, std::uint64_t, Origin, std::function<void(SiteAnswer)> then) override;
+    [[nodiscard]] std::vector<SiteRevision> site_history(std::size_t, std::uint64_t) const override { return {}; }
+    [[nodiscard]] std::optional<SiteRevision> site_revision(std::uint64_t) const override { return {}; }
+    void listen(SiteListener*) override {}
+    void unlisten(SiteListener*) override {}
+    // --- EngineHost
+    std::unique_ptr<Line> make_line(const LineSpec& spec, const LineSetup& setup) override;
+    void on_result(const Result& result) override { results_.push_back(result); }
+    void on_event(Event event, Instant at) override;
+    void on_sample(const Sample&) override {}
+    void on_store(StoreOrder order) override { stored_.push_back(order.ticket); }
+    void on_twin_memory(const std::string&, NonVolatile) override {}
+
+private:
+    void deliver();
+
+    const Families& families_;
+    Image image_;
+    Instant now_ = time_zero + std::chrono::seconds(1);
+    Engine engine_;
+    std::uint64_t tickets_ = 0;
+    std::map<Ticket, std::function<void(const Result&)>> waiting_;
+    std::vector<Result> results_;
+    std::vector<Ticket> stored_;
+    std::string last_warning_;
+};
+
+}  // namespace axisgate

@@ -362,6 +362,13 @@ json::object family_document(const FamilyEntry& entry) {
     o["commands"] = entry.catalogue->commands().size();
     o["errors"] = entry.catalogue->errors().size();
     o["freedoms"] = freedoms_document(*entry.catalogue);
+    json::value& options = o["options"];  // every twin is a specimen; the page of the family does not repeat it
+    if (!options.is_array()) options = json::array();
+    options.get_array().push_back({{"name", "specimen"},
+                                   {"of", json::array{"twin"}},
+                                   {"default", "0"},
+                                   {"description", "the drive of this family that the twin is: a seed from 0 (as its manual shows it) to "
+                                                   "1000000000, or slow, sparse, strict, chatty, weak, old"}});
     return o;
 }
 

@@ -19,10 +19,16 @@ const site: Site = { lines: [{ name: 'can0', uri: 'twin', family: 'uim342' }], d
 
 describe('the options of a family', () => {
   it('stand at a line or a drive, with those of its twins', () => {
-    expect(uim.map((o) => o.name)).toEqual(['crc', 'notify', 'home_input', 'home_timeout_s', 'boot_ms']);
-    expect(optionsFor(families.get('uim342'), 'lines').map((o) => o.name)).toEqual(['crc', 'boot_ms']);
+    expect(uim.map((o) => o.name)).toEqual(['crc', 'notify', 'home_input', 'home_timeout_s', 'boot_ms', 'reply_ms', 'notices']);
+    expect(optionsFor(families.get('uim342'), 'lines').map((o) => o.name)).toEqual(['crc', 'boot_ms', 'reply_ms', 'notices']);
     expect(optionsFor(families.get('uim342'), 'axes')).toEqual([]);
     expect(optionsFor(undefined, 'drives')).toEqual([]);
+  });
+  it('have the freedoms of its twin among them, once each', () => {
+    expect(optionField(spec('reply_ms'), 'drives')).toMatchObject({ kind: 'integer', min: 0, max: 200, hint: 'Of its twin. an answer is sent this long after its request. 0 to 200 ms. default 0 ms.' });
+    expect(optionField(spec('notices'), 'drives')).toMatchObject({ kind: 'choice', hint: 'Of its twin. the end of a motion is told without a question; 0: off; 1: on. 0 to 1. default 1.' });
+    const both: Family = { name: 'x', options: [{ name: 'boot_ms', of: ['twin'], default: null, description: '' }], freedoms: [{ name: 'boot_ms', unit: 'ms', min: 0, max: 9, default: 0, values: {}, named: {}, source: '', description: '' }] };
+    expect(optionsFor(both, 'drives')).toHaveLength(1);
   });
   it('are fields with their range, default and description', () => {
     expect(optionField(spec('home_timeout_s'), 'drives')).toEqual({ key: 'options.home_timeout_s', label: 'Home timeout, s', kind: 'integer', min: 1, max: 3600, placeholder: '60 s', hint: 'the search is given up and stopped after that. 1 to 3600 s. default 60 s.' });

@@ -1,6 +1,6 @@
 // Mock of what is configured: mappings, registers, the Modbus door, snapshots, scans, backup. In: requests. Out: documents of the HTTP door.
 // A stand-in for the page's author: the shapes of the answers and the refusals that the page must show, not a second gateway.
-import { commands, families } from './families.mjs';
+import { commands, families, specimen } from './families.mjs';
 import { SiteDesk } from './site.mjs';
 import { Refusal } from './world.mjs';
 
@@ -71,6 +71,11 @@ export class Configuration {
     if (kind === 'site') return this.site.answer(ask);
     if (kind === 'backup') return this.backup(ask);
     if (kind === 'families' && what === 'commands') return { body: commands };
+    if (kind === 'families' && what === 'specimens') {
+      const body = specimen(name ?? '', ask.parts[3] ?? '');
+      if (!body) throw new Refusal(404, 'not_found', `specimen = ${ask.parts[3]}: write a seed from 0 to 1000000000, or slow, sparse, strict, chatty, weak, old`);
+      return { body };
+    }
     if (kind === 'families' && !what) return { body: name ? families.find((f) => f.name === name) : families };
     if (kind === 'lines' && name && what === 'scan') return this.scan(ask, name);
     if (kind === 'axes' && name && what === 'snapshots') return this.snapshot(ask, name);

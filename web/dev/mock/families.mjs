@@ -23,8 +23,22 @@ export const families = [
       { name: 'home_timeout_s', of: ['drive'], min: 1, max: 3600, unit: 's', default: '60', description: 'the search is given up and stopped after that' },
       { name: 'boot_ms', of: ['twin'], min: 0, max: 60000, unit: 'ms', default: '0', description: 'how long the simulated drive is silent after power-on' },
     ],
+    freedoms: [
+      { name: 'reply_ms', unit: 'ms', min: 0, max: 200, default: 0, values: {}, named: { slow: 200 }, source: 'silent', description: 'an answer is sent this long after its request' },
+      { name: 'notices', unit: null, min: 0, max: 1, default: 1, values: { 0: 'off', 1: 'on' }, named: { sparse: 0 }, source: 'L210', description: 'the end of a motion is told without a question' },
+    ],
   },
 ];
+
+/** One specimen: a seed has half of its range here. @param {string} family @param {string} specimen */
+export function specimen(family, specimen) {
+  const freedoms = families.find((f) => f.name === family)?.freedoms ?? [];
+  const known = /^(0|[1-9]\d{0,8}|slow|sparse|strict|chatty|weak|old)$/.test(specimen);
+  if (!known) return null;
+  const values = Object.fromEntries(freedoms.map((f) => [f.name, f.named[specimen] ?? (/^[1-9]/.test(specimen) ? Math.ceil(f.max / 2) : f.default)]));
+  const words = freedoms.filter((f) => values[f.name] !== f.default).map((f) => `${f.name} = ${values[f.name]}: ${f.description}`);
+  return { family, specimen, values, words };
+}
 
 const argument = { unit: null, scale: 1, min: null, max: null, default: null, description: null };
 /** Actions that every mock family has: one that takes nothing, one with numbers, one with a text and a switch. @type {import('../../src/text/action').CatalogueCommand[]} */

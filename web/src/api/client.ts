@@ -9,7 +9,7 @@ import { asProblem, Problem, problemOf } from './problem';
 import type {
   Action,
   About, Alarm, AlarmList, Axis, AxisParameter, Command, CommandAnswer, Drive, FleetGateway, GatewayEvent, HandItem, Line, ModbusDoor, NativeReply,
-  RecipeCheck, RecipeEntry, RecipeReport, RecipeReportHead, ScanReport, Value,
+  RecipeCheck, RecipeEntry, RecipeReport, RecipeReportHead, ScanReport, Specimen, Value,
 } from './types';
 
 const ordinaryAtOnce = 4;
@@ -62,6 +62,7 @@ export class Client {
   about = () => this.call<About>('/about');
   /** What the catalogues say of whole families; beyond the name nothing is promised. */
   families = () => this.call<Family[]>('/families');
+  specimen = (family: string, specimen: string) => this.call<Specimen>(`/families/${part(family)}/specimens/${part(specimen)}`);
   familyCommands = (family: string) => this.call<CatalogueCommand[]>(`/families/${part(family)}/commands`);
   /** A function of the drive's family by its catalogue name; a motion is answered when it has begun. */
   act = (axis: string, action: Action) => this.call<CommandAnswer>(`/axes/${part(axis)}/actions`, { method: 'POST', body: action });

@@ -26,6 +26,7 @@ export type Line = Always<Schemas['LineFields'], 'name' | 'uri'> & {
 export type GatewayEvent = Schemas['Event'];
 export type Alarm = Schemas['Alarm'];
 export type AlarmList = Schemas['AlarmList'];
+export type Specimen = Schemas['Specimen'];
 export type Severity = Schemas['Severity'];
 export type About = Schemas['About'];
 export type Action = Schemas['Action'];

@@ -19,6 +19,7 @@ import { memo } from '../components/memo';
 import { Mark } from '../components/pill';
 import { Scope } from '../components/scope';
 import { Section } from '../components/section';
+import { Specimen } from '../components/specimen';
 import { StateMachine } from '../components/state-machine';
 import { StopButton } from '../components/stop';
 import { useGateway } from '../gateway';
@@ -121,11 +122,16 @@ export function AxisPage({ name, tab }: { name: string; tab: AxisTab }) {
         </>
       )}
       {tab === 'simulation' && (
-        <Section title={t('Fault simulation')}>
-          <Gate need="engineer">
-            <Hand drive={axis.drive} axis={name} />
-          </Gate>
-        </Section>
+        <>
+          <Section title={t('Fault simulation')}>
+            <Gate need="engineer">
+              <Hand drive={axis.drive} axis={name} />
+            </Gate>
+          </Section>
+          <Section title={t('Specimen')} help="specimens">
+            <Specimen key={axis.drive} drive={axis.drive} family={axis.family} />
+          </Section>
+        </>
       )}
       {tab === 'events' && (
         <Section title={t('Events of this axis')}>

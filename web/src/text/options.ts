@@ -9,6 +9,7 @@ import type { FieldSpec, Room, Site, Texts } from './site';
 /** What the page reads of a family's catalogue; older gateways do not tell all of it. */
 export type Family = Partial<components['schemas']['Family']> & { name: string };
 export type OptionSpec = NonNullable<components['schemas']['Family']['options']>[number];
+type Freedom = components['schemas']['Family']['freedoms'][number];
 export type Families = ReadonlyMap<string, Family>;
 
 export const optionPrefix = 'options.';
@@ -24,8 +25,18 @@ export function familyOf(room: Room, texts: Texts, site: Site): string {
 }
 
 /** What may be said at a line or a drive. A twin's options stand beside those of its drive, or of its line for all twins of that. */
-export const optionsFor = (family: Family | undefined, room: Room): readonly OptionSpec[] =>
-  room === 'axes' ? [] : (family?.options ?? []).filter((o) => o.of.includes('twin') || o.of.includes(room === 'lines' ? 'line' : 'drive'));
+export function optionsFor(family: Family | undefined, room: Room): readonly OptionSpec[] {
+  if (room === 'axes') return [];
+  const all = family?.options ?? [];
+  const own = all.filter((o) => o.of.includes('twin') || o.of.includes(room === 'lines' ? 'line' : 'drive'));
+  return [...own, ...(family?.freedoms ?? []).filter((f) => all.every((o) => o.name !== f.name)).map(freedomOption)];
+}
+
+/** A freedom is an option of the twin; what its numbers mean is in its hint. */
+const freedomOption = ({ name, unit, min, max, default: standard, values, description }: Freedom): OptionSpec => {
+  const meant = Object.entries(values);
+  return { name, of: ['twin'], min, max, default: String(standard), description: [description, ...meant.map(([n, text]) => `${n}: ${text}`)].join('; '), ...(unit ? { unit } : {}), ...(meant.length > 0 ? { values: Object.keys(values) } : {}) };
+};
 
 const switchText = ['on', 'off', 'true', 'false', '1', '0'];
 /** Six words for a switch are two to choose from. */

@@ -96,7 +96,8 @@ struct CommandLine {
             ->type_name("HOST:PORT");
         twin->add_option("--time-scale", twin_options.time_scale, "how many times as fast the drives' clock runs, 0.001 to 10000")
             ->type_name("X");
-        twin->add_option("--specimen", twin_options.specimen, "which drive of the family: a seed, or slow, sparse, strict, chatty, weak, old")
+        twin->add_option("--specimen", twin_options.specimen,
+                         "which drive of the family: a seed, or slow, sparse, strict, chatty, weak, old")
             ->type_name("N|NAME");
         twin->add_option("--option", twin_options.options, "an option of the family, such as crc=13; may be repeated")
             ->type_name("NAME=VALUE")
@@ -115,7 +116,9 @@ struct CommandLine {
 
         specimen = app.add_subcommand("specimen", "the freedoms of a family's simulated drive, or one specimen of it in words");
         specimen->add_option("family", specimen_family, "family, see `axisgate families`")->required()->type_name("FAMILY");
-        specimen->add_option("specimen", specimen_name, "a seed (0 is the drive as its manual shows it), or slow, sparse, strict, chatty, weak, old")
+        specimen
+            ->add_option("specimen", specimen_name,
+                         "a seed (0 is the drive as its manual shows it), or slow, sparse, strict, chatty, weak, old")
             ->type_name("N|NAME");
         specimen->add_flag("--json", specimen_json, "as JSON");
 
@@ -133,11 +136,14 @@ struct CommandLine {
 
     void add_rehearse() {
         rehearse = app.add_subcommand("rehearse", "run a recipe in virtual time against many specimens of the site's drives");
-        rehearse->add_option("--recipe", rehearse_options.recipe, "name of a stored recipe, or a file (.json)")->required()->type_name("NAME|FILE.json");
+        rehearse->add_option("--recipe", rehearse_options.recipe, "name of a stored recipe, or a file (.json)")
+            ->required()
+            ->type_name("NAME|FILE.json");
         rehearse->add_option("--specimens", rehearse_options.specimens, "seeds and names, such as 1..100 (default) or 0,17,slow,weak")
             ->type_name("LIST");
         rehearse
-            ->add_option("--family-specimen", rehearse_options.fixed, "drives of this family are the same specimen in all runs; may be repeated")
+            ->add_option("--family-specimen", rehearse_options.fixed,
+                         "drives of this family are the same specimen in all runs; may be repeated")
             ->type_name("FAMILY=N")
             ->allow_extra_args(false);
         rehearse->add_option("--argument", rehearse_options.arguments, "an argument of the recipe; may be repeated")
@@ -249,9 +255,9 @@ struct CommandLine {
     }
 
     CLI::App& app;
-    CLI::App *serve = nullptr, *twin = nullptr, *families = nullptr, *catalogue = nullptr, *specimen = nullptr, *decode = nullptr, *rehearse = nullptr, *replay = nullptr,
-             *check = nullptr, *backup = nullptr, *restore = nullptr, *bundle = nullptr, *health = nullptr, *pki = nullptr,
-             *version = nullptr, *help = nullptr;
+    CLI::App *serve = nullptr, *twin = nullptr, *families = nullptr, *catalogue = nullptr, *specimen = nullptr, *decode = nullptr,
+             *rehearse = nullptr, *replay = nullptr, *check = nullptr, *backup = nullptr, *restore = nullptr, *bundle = nullptr,
+             *health = nullptr, *pki = nullptr, *version = nullptr, *help = nullptr;
     Common serve_common, check_common, rehearse_common, backup_common, restore_common, bundle_common, health_common;
     TwinOptions twin_options;
     std::string families_format = "table";

@@ -140,7 +140,8 @@ private:
             wish_.name = std::filesystem::path(options_.recipe).stem().string();
         } else {
             const auto kept = reader_->document("recipe", options_.recipe);
-            if (!kept || !*kept) return usage(fmt::format("there is no stored recipe {}; for a file write its name with .json", options_.recipe));
+            if (!kept || !*kept)
+                return usage(fmt::format("there is no stored recipe {}; for a file write its name with .json", options_.recipe));
             text = (*kept)->text;
             wish_.name = options_.recipe;
         }
@@ -161,10 +162,10 @@ private:
             json::array list;
             for (const auto& r : rows)
                 list.push_back(to_json(r));
-            fmt::print("{}\n", json::serialize(json::object{{"recipe", options_.recipe},
-                                                            {"passed", passed},
-                                                            {"failed", rows.size() - passed},
-                                                            {"specimens", std::move(list)}}));
+            fmt::print(
+                "{}\n",
+                json::serialize(json::object{
+                    {"recipe", options_.recipe}, {"passed", passed}, {"failed", rows.size() - passed}, {"specimens", std::move(list)}}));
         } else {
             std::vector<TableRow> table;
             for (const auto& r : rows)

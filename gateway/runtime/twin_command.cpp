@@ -225,7 +225,8 @@ std::optional<TwinPlan> plan_of(const TwinOptions& o, const FamilyEntry& entry) 
     if (!o.specimen.empty()) {
         if (const std::string wrong = check_option(*entry.catalogue, {OptionOf::twin}, "specimen", o.specimen); !wrong.empty())
             refuse("--specimen: " + wrong);
-        if (!plan.options.emplace("specimen", o.specimen).second) refuse("--specimen: --option names a specimen, too; leave one of them out");
+        if (!plan.options.emplace("specimen", o.specimen).second)
+            refuse("--specimen: --option names a specimen, too; leave one of them out");
     }
     if (usable && !o.state_file.empty()) {
         std::string fault;

@@ -367,8 +367,9 @@ json::object family_document(const FamilyEntry& entry) {
     options.get_array().push_back({{"name", "specimen"},
                                    {"of", json::array{"twin"}},
                                    {"default", "0"},
-                                   {"description", "the drive of this family that the twin is: a seed from 0 (as its manual shows it) to "
-                                                   "1000000000, or slow, sparse, strict, chatty, weak, old"}});
+                                   {"description",
+                                    "the drive of this family that the twin is: a seed from 0 (as its manual shows it) to "
+                                    "1000000000, or slow, sparse, strict, chatty, weak, old"}});
     return o;
 }
 

@@ -63,8 +63,8 @@ describe('what is typed for them', () => {
     expect([entry, faults]).toEqual([null, { 'options.home_input': '1 to 3.' }]);
   });
   it('is summed up', () => {
-    expect(optionsTitle('uim342', uim, { 'options.notify': 'on', 'options.home_input': ' ' })).toBe('Options of uim342: 5; set: notify');
-    expect(optionsTitle('uim342', uim, {})).toBe('Options of uim342: 5, none set');
+    expect(optionsTitle('uim342', uim, { 'options.notify': 'on', 'options.home_input': ' ' })).toBe('Options of uim342: 7; set: notify');
+    expect(optionsTitle('uim342', uim, {})).toBe('Options of uim342: 7, none set');
     expect(optionsTitle('', [], {})).toBe('Options');
   });
 });

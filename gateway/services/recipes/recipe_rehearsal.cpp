@@ -54,9 +54,12 @@ std::string text_in(const json::object& report, std::string_view member) {
 }  // namespace
 
 json::object to_json(const RehearsedSpecimen& r) {
-    return {{"specimen", r.specimen},          {"passed", r.passed},
-            {"step", text_or_null(r.step)},    {"pointer", text_or_null(r.pointer)},
-            {"text", text_or_null(r.text)},    {"event", text_or_null(r.event)},
+    return {{"specimen", r.specimen},
+            {"passed", r.passed},
+            {"step", text_or_null(r.step)},
+            {"pointer", text_or_null(r.pointer)},
+            {"text", text_or_null(r.text)},
+            {"event", text_or_null(r.event)},
             {"seconds", std::round(r.seconds * 1000) / 1000}};
 }
 
@@ -130,7 +133,8 @@ RehearsedSpecimen RecipeRehearsal::play(std::string_view specimen) const {
     out.specimen = specimen;
     RehearsalGateway gateway(families_, site_of(specimen), wish_.memory, wish_.lease);
     if (const std::string missing = wait_for_drives(gateway, axes_); !missing.empty()) {
-        out.text = fmt::format("not online within {} s: {}", std::chrono::duration_cast<std::chrono::seconds>(start_limit).count(), missing);
+        out.text =
+            fmt::format("not online within {} s: {}", std::chrono::duration_cast<std::chrono::seconds>(start_limit).count(), missing);
         out.event = gateway.last_warning();
         return out;
     }

@@ -68,9 +68,7 @@ bool RehearsalGateway::online(AxisId axis) const {
     return p.ever_seen && (p.flags & flag_online) != 0 && (p.flags & flag_stale) == 0;
 }
 
-AxisPicture RehearsalGateway::picture(AxisId axis) const {
-    return index_of(axis) < image_.size() ? image_.picture(axis) : AxisPicture{};
-}
+AxisPicture RehearsalGateway::picture(AxisId axis) const { return index_of(axis) < image_.size() ? image_.picture(axis) : AxisPicture{}; }
 
 std::uint64_t RehearsalGateway::picture_revision(AxisId axis) const {
     return index_of(axis) < image_.size() ? image_.cell(axis).revision() : 0;

@@ -22,7 +22,12 @@ namespace axisgate {
 /// The site with every drive simulated: lines become twin lines with the same medium and bit rate.
 [[nodiscard]] Site simulated_site(Site site, const Families& families);
 
-class RehearsalGateway final : public EngineHost, public AxisPort, public ClockPort, public DocumentPort, public EventPort, public SitePort {
+class RehearsalGateway final : public EngineHost,
+                               public AxisPort,
+                               public ClockPort,
+                               public DocumentPort,
+                               public EventPort,
+                               public SitePort {
 public:
     /// `site` is one of simulated_site. The drives are switched on at once; they are searched for and identified in the first steps.
     RehearsalGateway(const Families& families, Site site, const SiteMemory& memory, Duration lease);

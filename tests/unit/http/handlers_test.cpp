@@ -84,8 +84,9 @@ TEST_F(HttpTest, SpecimensOfAFamily) {
         call("GET", "/api/v1/families/demo").at("freedoms"),
         R"([{"name":"reply_ms","unit":"ms","min":0,"max":200,"default":0,"values":{},"named":{"slow":200},"source":"silent","description":"an answer comes this late"},)"
         R"({"name":"echo","unit":null,"min":0,"max":1,"default":1,"values":{"0":"off","1":"on"},"named":{},"source":"L12","description":"commands are repeated"}])");
-    EXPECT_EQ(call("GET", "/api/v1/families/demo/specimens/slow").text,
-              R"({"family":"demo","specimen":"slow","values":{"reply_ms":200,"echo":1},"words":["reply_ms = 200 ms: an answer comes this late"]})");
+    EXPECT_EQ(
+        call("GET", "/api/v1/families/demo/specimens/slow").text,
+        R"({"family":"demo","specimen":"slow","values":{"reply_ms":200,"echo":1},"words":["reply_ms = 200 ms: an answer comes this late"]})");
     EXPECT_EQ(call("GET", "/api/v1/families/demo/specimens/0").text,
               R"({"family":"demo","specimen":"0","values":{"reply_ms":0,"echo":1},"words":[]})");
     bool differs = false;  // half of the freedoms of a seed keep the manual's value, so one of a few seeds has another echo

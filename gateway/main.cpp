@@ -69,6 +69,7 @@ struct CommandLine {
         add_config(*serve, serve_common, true);
         add_twin();
         add_families();
+        add_compare();
         check = app.add_subcommand("check", "find all faults of configuration and site");
         add_config(*check, check_common, true);
         add_backup();
@@ -124,8 +125,8 @@ struct CommandLine {
 
         decode = app.add_subcommand("decode", "one readable line per recorded frame");
         decode->add_option("family", decode_family)->required()->type_name("FAMILY");
-        decode->add_option("--format", decode_format, "candump, hex (lines of bytes, > to the drive, < from it) or trace")
-            ->check(CLI::IsMember({"candump", "hex", "trace"}));
+        decode->add_option("--format", decode_format, "candump, hex (lines of bytes, > to the drive, < from it), trace, pcapng or axr")
+            ->check(CLI::IsMember({"candump", "hex", "trace", "pcapng", "axr"}));
         decode->add_option("file", decode_file, "recorded line; - or nothing: standard input")->type_name("FILE");
 
         add_rehearse();
@@ -153,6 +154,41 @@ struct CommandLine {
         add_config(*rehearse, rehearse_common, false);
         rehearse->add_option("--site", rehearse_options.site_file, "site document with the drives (default: the stored site)")
             ->type_name("FILE.json");
+    }
+
+    void add_compare() {
+        compare = app.add_subcommand("compare", "play a recorded drive to its twin, and tell where the two differ; nothing is sent");
+        compare->add_option("family", compare_options.family, "family, see `axisgate families`")->required()->type_name("FAMILY");
+        compare->add_option("recording", compare_options.file, "recorded line of a real drive; -: standard input")
+            ->required()
+            ->type_name("RECORDING");
+        compare
+            ->add_option("--format", compare_options.format,
+                         "candump, hex (lines as `(SECONDS) > BYTES`, > to the drive, < from it), trace, pcapng or axr; without it the "
+                         "content decides")
+            ->check(CLI::IsMember({"candump", "hex", "trace", "pcapng", "axr"}));
+        compare->add_option("--interface", compare_options.interface, "the line to compare, if the recording has several")
+            ->type_name("NAME");
+        compare->add_option("--address", compare_options.addresses, "address of a recorded drive; may be repeated")
+            ->type_name("A")
+            ->allow_extra_args(false);
+        compare->add_option("--option", compare_options.options, "an option of the twin, such as crc=13; may be repeated")
+            ->type_name("NAME=VALUE")
+            ->allow_extra_args(false);
+        compare->add_option("--state", compare_options.state_file, "the drive's memory when the recording begins, as of `twin --state`")
+            ->type_name("FILE");
+        compare->add_option("--specimen", compare_options.specimen, "only this specimen: a seed or a name")->type_name("N");
+        compare
+            ->add_option("--seeds", compare_options.seeds,
+                         "without --specimen: how many seeds are tried beside 0 and the names (default 50)")
+            ->check(CLI::Range(0, 1000))
+            ->type_name("N");
+        compare
+            ->add_option("--tolerance-ms", compare_options.tolerance_ms,
+                         "by how much a reply time may be outside the specimen's range (default 20)")
+            ->check(CLI::Range(0, 10000))
+            ->type_name("MS");
+        compare->add_flag("--json", compare_options.json, "the whole result as JSON");
     }
 
     void add_backup() {
@@ -221,6 +257,7 @@ struct CommandLine {
         if (*specimen) return command_specimen(specimen_family, specimen_name, specimen_json);
         if (*decode) return command_decode(decode_family, decode_format, decode_file);
         if (*replay) return command_replay(replay_file);
+        if (*compare) return command_compare(compare_options);
         if (*twin) return command_twin(twin_options);
         if (*check) {
             bool good = true;
@@ -256,10 +293,11 @@ struct CommandLine {
 
     CLI::App& app;
     CLI::App *serve = nullptr, *twin = nullptr, *families = nullptr, *catalogue = nullptr, *specimen = nullptr, *decode = nullptr,
-             *rehearse = nullptr, *replay = nullptr, *check = nullptr, *backup = nullptr, *restore = nullptr, *bundle = nullptr,
-             *health = nullptr, *pki = nullptr, *version = nullptr, *help = nullptr;
+             *rehearse = nullptr, *replay = nullptr, *compare = nullptr, *check = nullptr, *backup = nullptr, *restore = nullptr,
+             *bundle = nullptr, *health = nullptr, *pki = nullptr, *version = nullptr, *help = nullptr;
     Common serve_common, check_common, rehearse_common, backup_common, restore_common, bundle_common, health_common;
     TwinOptions twin_options;
+    CompareOptions compare_options;
     std::string families_format = "table";
     std::string catalogue_family, catalogue_what = "parameters", catalogue_format = "table";
     std::string specimen_family, specimen_name;

@@ -69,6 +69,21 @@ struct RehearseOptions {
 /// Plays a recipe against specimens of the site's drives in virtual time and prints a table. Exit code 1 if it fails with one of them.
 [[nodiscard]] int command_rehearse(const Config& config, const RehearseOptions& options);
 
+struct CompareOptions {
+    std::string family, file;
+    std::string format;                  ///< empty: by the content of the file
+    std::string interface;               ///< of a recording with several lines
+    std::vector<std::string> addresses;  ///< empty: those that the recording shows (CAN), or the factory's
+    std::vector<std::string> options;    ///< "name=value" for the twins
+    std::string specimen;                ///< only this one; empty: 0, the named ones, and the seeds 1 to `seeds`
+    int seeds = 50;
+    std::string state_file;  ///< memory of the twins when the recording begins
+    int tolerance_ms = 20;
+    bool json = false;
+};
+/// Compares a recorded drive with its twin. Exit code: 0 equal, 1 differences, 2 wrong usage, or a recording that cannot be compared.
+[[nodiscard]] int command_compare(const CompareOptions& options);
+
 /// "axisgate: TEXT" on standard error.
 void complain(const std::string& text);
 /// "PLACE: the fault; the remedy", with "warning: " before faults that `serve` tolerates.

@@ -1,5 +1,5 @@
-// Converts a recorded line to readable exchanges, one line per message: a candump log, hex lines, or a trace as JSON; from a file or
-// standard input. Lines that cannot be read are reported with their place.
+// Converts a recorded line to readable exchanges, one line per message: a candump log, hex lines, a trace as JSON, a capture or a
+// recording; from a file or standard input. Lines that cannot be read are reported with their place.
 #include <fmt/core.h>
 
 #include <cstdio>
@@ -24,7 +24,7 @@ int command_decode(const std::string& family, const std::string& format_name, co
     }
     const auto format = recording_format_named(format_name);
     if (!format) {
-        complain(fmt::format("there is no format {}; formats: candump, hex, trace", format_name));
+        complain(fmt::format("there is no format {}; formats: candump, hex, trace, pcapng, axr", format_name));
         return exit_usage;
     }
     std::string fault;
@@ -43,10 +43,7 @@ int command_decode(const std::string& family, const std::string& format_name, co
             fmt::print("{}{}{}\n", r.stamp, r.stamp.empty() ? "" : " ", line);
     };
     events.fault = [&](std::size_t place, const std::string& what) {
-        const std::string at = place == 0                          ? file
-                               : *format == RecordingFormat::trace ? fmt::format("{}: frame {}", file, place)
-                                                                   : fmt::format("{}:{}", file, place);
-        complain(fmt::format("{}: {}", at, what));
+        complain(fmt::format("{}: {}", recording_place(file, *format, place), what));
         good = false;
     };
     read_recording(*text, *format, events);

@@ -10,6 +10,9 @@
 #include <vector>
 
 #include "gateway/core/json_read.hpp"
+#include "gateway/core/text.hpp"
+#include "gateway/services/recorder/axr.hpp"
+#include "gateway/wire/frame_import.hpp"
 
 namespace axisgate {
 namespace {
@@ -97,12 +100,28 @@ bool read_frames(std::string_view text, RecordedFrame& r, const RecordingEvents&
     return true;
 }
 
+/// Seconds with a fraction ("1436509052.249713"), or a date and time of day in UTC ("2026-01-02 03:04:05.678901").
+std::optional<std::int64_t> nanoseconds_of(std::string_view stamp) {
+    if (stamp.find('-') != std::string_view::npos && stamp.find(':') != std::string_view::npos)
+        return parse_time(stamp.ends_with('Z') || stamp.find('+') != std::string_view::npos ? std::string(stamp)
+                                                                                            : std::string(stamp) + "Z");
+    const auto dot = std::min(stamp.find('.'), stamp.size());
+    const auto whole = parse_whole(stamp.substr(0, dot), 0, 9'000'000'000);
+    std::string fraction(stamp.substr(std::min(dot + 1, stamp.size())));
+    if (!whole || fraction.size() > 9) return std::nullopt;
+    fraction.resize(9, '0');
+    const auto ns = parse_whole(fraction, 0, 999'999'999);
+    if (!ns) return std::nullopt;
+    return *whole * 1'000'000'000 + *ns;
+}
+
 /// "(...)" at the front, which may contain blanks.
 bool take_stamp(std::string_view& rest, RecordedFrame& r) {
     if (!rest.starts_with('(')) return true;
     const auto close = rest.find(')');
     if (close == std::string_view::npos) return false;
     r.stamp = rest.substr(0, close + 1);
+    r.at_ns = nanoseconds_of(trimmed(rest.substr(1, close - 1)));
     rest.remove_prefix(close + 1);
     return true;
 }
@@ -120,7 +139,8 @@ std::optional<bool> read_trace_text(std::string_view rest, RecordedFrame& r, con
 bool candump_line(std::string_view line, const RecordingEvents& events) {
     RecordedFrame r;
     if (!take_stamp(line, r)) return false;
-    if (take_word(line).empty()) return false;  // the interface
+    r.line = take_word(line);
+    if (r.line.empty()) return false;
     if (const auto done = read_trace_text(line, r, events)) return *done;
     auto id = take_word(line);
     if (id == "TX" || id == "RX") {  // the screen form with -x: direction and two flags
@@ -151,8 +171,11 @@ bool hex_line(std::string_view line, const RecordingEvents& events) {
     RecordedFrame r;
     if (line.starts_with('(')) {
         if (!take_stamp(line, r)) return false;
-        (void)take_word(line);  // the line's name
-        return read_trace_text(line, r, events).value_or(false);
+        line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+        if (!line.starts_with('>') && !line.starts_with('<')) {
+            r.line = take_word(line);
+            return read_trace_text(line, r, events).value_or(false);
+        }
     }
     if (line.starts_with('>') || line.starts_with('<')) {
         r.to_drive = line.front() == '>';
@@ -181,6 +204,7 @@ bool trace_entry(const json::value& entry, const RecordingEvents& events) {
     const auto& o = entry.get_object();
     RecordedFrame r;
     r.stamp = text_at(o, "at");
+    r.at_ns = parse_time(r.stamp);
     if (const auto* v = o.if_contains("to_drive"); v && v->is_bool()) r.to_drive = v->get_bool();
     const auto* data_text = o.if_contains("data");
     if (!data_text || !data_text->is_string()) return false;
@@ -222,17 +246,62 @@ void read_trace(std::string_view text, const RecordingEvents& events) {
         if (!trace_entry((*list)[i], events)) events.fault(i + 1, "not a frame; expected kind, id (null for bytes) and data in hex");
     }
 }
+
+void read_capture(std::string_view bytes, const RecordingEvents& events) {
+    CaptureEvents capture;
+    capture.frame = [&](const CapturedFrame& f) {
+        RecordedFrame r;
+        r.at_ns = f.at_unix_ns;
+        r.stamp = fmt::format("({}.{:06})", f.at_unix_ns / 1'000'000'000, f.at_unix_ns % 1'000'000'000 / 1000);
+        r.line = f.interface;
+        r.to_drive = f.to_drive;
+        r.frame = f.frame;
+        events.frame(r);
+    };
+    capture.fault = events.fault;
+    read_pcapng(bytes, capture);
+}
+
+void read_flight(std::string_view bytes, const RecordingEvents& events) {
+    const Axr axr = read_axr(bytes);
+    if (!axr.fault.empty()) return events.fault(0, axr.fault);
+    const auto frames = axr.section(axr_frames);
+    if (frames.empty()) return events.fault(0, "the recording contains no frames");
+    read_capture({frames.data(), frames.size()}, events);
+}
 }  // namespace
 
 std::optional<RecordingFormat> recording_format_named(std::string_view name) noexcept {
     if (name == "candump") return RecordingFormat::candump;
     if (name == "hex") return RecordingFormat::hex;
     if (name == "trace") return RecordingFormat::trace;
+    if (name == "pcapng") return RecordingFormat::pcapng;
+    if (name == "axr") return RecordingFormat::axr;
     return std::nullopt;
+}
+
+RecordingFormat recording_format_of(std::string_view bytes) noexcept {
+    if (is_pcapng(bytes)) return RecordingFormat::pcapng;
+    if (bytes.starts_with(axr_magic.substr(0, 4))) return RecordingFormat::axr;
+    while (!bytes.empty()) {
+        const auto end = std::min(bytes.find('\n'), bytes.size());
+        std::string_view line = trimmed(bytes.substr(0, end));
+        bytes.remove_prefix(std::min(end + 1, bytes.size()));
+        if (line.empty() || line.front() == '#') continue;
+        if (line.front() == '[' || line.front() == '{') return RecordingFormat::trace;
+        if (line.front() == '(') line.remove_prefix(std::min(line.find(')'), line.size() - 1) + 1);
+        line = trimmed(line);
+        if (line.empty() || line.front() == '>' || line.front() == '<') return RecordingFormat::hex;
+        // The first word of a line of candump is an interface, that of hex bytes is hex.
+        return hex_bytes(take_word(line)) ? RecordingFormat::hex : RecordingFormat::candump;
+    }
+    return RecordingFormat::hex;
 }
 
 void read_recording(std::string_view text, RecordingFormat format, const RecordingEvents& events) {
     if (format == RecordingFormat::trace) return read_trace(text, events);
+    if (format == RecordingFormat::pcapng) return read_capture(text, events);
+    if (format == RecordingFormat::axr) return read_flight(text, events);
     for (std::size_t n = 1; !text.empty(); ++n) {
         const auto end = std::min(text.find('\n'), text.size());
         std::string_view line = text.substr(0, end);
@@ -246,6 +315,12 @@ void read_recording(std::string_view text, RecordingFormat format, const Recordi
                 n, fmt::format("not a line of format {}: {}", format == RecordingFormat::candump ? "candump" : "hex", line.substr(0, 80)));
         }
     }
+}
+
+std::string recording_place(const std::string& file, RecordingFormat format, std::size_t place) {
+    if (place == 0) return file;
+    const bool lines = format == RecordingFormat::candump || format == RecordingFormat::hex;
+    return fmt::format("{}{}{}", file, lines ? ":" : ": frame ", place);
 }
 
 }  // namespace axisgate

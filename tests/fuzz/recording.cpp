@@ -1,4 +1,4 @@
-// Fuzz target for `axisgate decode`: a recording in any of its forms, through every family's decoder. Laws: one line per message, frames
+// Fuzz target for `axisgate decode` and `axisgate compare`: a recording in any of its forms, through every family's decoder. Laws: one line per message, frames
 // that fit their kind, and frames that were read can be written and read again.
 #include "gateway/runtime/recording.hpp"
 
@@ -9,7 +9,7 @@ using namespace axisgate;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size == 0 || size > 64 * 1024) return 0;
-    const auto format = static_cast<RecordingFormat>(data[0] % 3);
+    const auto format = static_cast<RecordingFormat>(data[0] % 5);
     const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
     struct Pair {
         std::unique_ptr<Decoder> can, bytes;

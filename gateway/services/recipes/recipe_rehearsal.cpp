@@ -47,7 +47,7 @@ std::string wait_for_drives(RehearsalGateway& gateway, const std::vector<std::st
     return names;
 }
 
-std::string text_in(const json::object& report, std::string_view member) {
+std::string text_of_report(const json::object& report, std::string_view member) {
     const auto* v = report.if_contains(member);
     return v && v->is_string() ? std::string(v->get_string()) : std::string();
 }
@@ -154,12 +154,12 @@ RehearsedSpecimen RecipeRehearsal::play(std::string_view specimen) const {
         if (service->deadline() <= gateway.now()) service->on_deadline(gateway.now());
     }
     out.seconds = std::chrono::duration<double>(gateway.now() - began).count();
-    out.passed = text_in(report, "state") == name_of(RecipeRun::State::done);
+    out.passed = text_of_report(report, "state") == name_of(RecipeRun::State::done);
     out.event = gateway.last_warning();
     if (out.passed) return out;
-    out.pointer = text_in(report, "at_step");
-    out.step = text_in(report, "at_label");
-    out.text = text_in(report, "text");
+    out.pointer = text_of_report(report, "at_step");
+    out.step = text_of_report(report, "at_label");
+    out.text = text_of_report(report, "text");
     return out;
 }
 

@@ -57,7 +57,7 @@ struct FreeBench : Bench {
         return list;
     }
     [[nodiscard]] double place() { return twin->mechanics(1, now).position; }
-    [[nodiscard]] unsigned fault() { return static_cast<unsigned>(read(0x603F)); }
+    [[nodiscard]] unsigned fault() { return static_cast<unsigned>(read(0x603F)) & 0xFFFFu; }
 
     void move_to(std::int64_t target) {
         ASSERT_EQ(write(0x607A, 0, target, 4), canopen::Abort::none);

@@ -2,6 +2,7 @@
 // In: the fuzzer's bytes. Out: nothing; laws: deadlines move on, the mechanics stay numbers, what it sends is the protocol and from itself,
 // its memory survives power-off, and its revision tells of every change of it.
 #include "adapters/uim342/fuzz/frames.hpp"
+#include "gateway/core/specimen.hpp"
 #include "tests/fuzz/twin_laws.hpp"
 
 using namespace axisgate;
@@ -15,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     setup.address = "5";
     setup.kind = in.ConsumeBool() ? LineKind::can : LineKind::bytes;
     if (in.ConsumeBool()) setup.options["crc"] = in.ConsumeBool() ? "13" : "auto";
-    if (in.ConsumeBool()) setup.options["boot_ms"] = std::to_string(in.ConsumeIntegral<std::uint16_t>());
+    if (in.ConsumeBool()) setup.freedoms = specimen_values(*entry.catalogue, std::to_string(in.ConsumeIntegral<std::uint16_t>()));
     const std::vector<std::string> addresses{"5", "5", "0", "6"};
     fuzz::TwinRun twin(entry.family->make_twin(*entry.catalogue, setup), 1, [&](const Frame& f) {
         if (setup.kind == LineKind::can) {

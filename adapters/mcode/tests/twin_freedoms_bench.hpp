@@ -72,6 +72,13 @@ struct FreeDrive {
         return all;
     }
     std::string text() const { return shown(raw()); }
+    /// ms from `since` to the first piece that begins with a prompt; -1: there is none.
+    std::int64_t ms_of_prompt(Instant since) const {
+        for (const auto& [at, piece] : sent) {
+            if (piece.starts_with('>')) return (at - since) / milliseconds(1);
+        }
+        return -1;
+    }
     /// ms from `since` to the first piece that has this text; -1: there is none.
     std::int64_t ms_of(std::string_view part, Instant since) const {
         for (const auto& [at, piece] : sent) {

@@ -43,7 +43,7 @@ TEST(TwinFreedoms, EveryNamedSpecimenDiffers) {
 
 TEST(TwinFreedoms, DeliveredEchoAndChecksumModesEndWithFd) {
     FreeDrive d({{"delivered_em", 1}, {"delivered_ck", 1}});
-    EXPECT_EQ(d.bytes("PR P\r"), "<15>") << "no checksum came" << d.text();
+    EXPECT_EQ(d.bytes("PR P\r"), "<NAK>") << "no checksum came";
     EXPECT_EQ(d.bytes("PR P\xEE\r"), "<ACK>0<D0><CR><LF>");
     (void)d.bytes(std::string("FD") + static_cast<char>(((0x100 - 'F' - 'D') & 0x7F) | 0x80) + "\r");
     EXPECT_EQ(d.bytes("PR P\r"), "PR P<CR><LF>0<CR><LF>>");
@@ -71,11 +71,11 @@ TEST(TwinFreedoms, ThePromptComesLate) {
     const Instant from = d.now;
     EXPECT_EQ(d.bytes("PR P\r"), "PR P<CR><LF>0<CR><LF>>");
     EXPECT_EQ(d.ms_of("0<CR><LF>", from), 1);
-    EXPECT_EQ(d.ms_of(">", from), 31);
+    EXPECT_EQ(d.ms_of_prompt(from), 31);
     const Instant second = d.now;
     (void)d.bytes("PR P\r", milliseconds(5));
     EXPECT_EQ(d.bytes("ER=0\r"), ">ER=0<CR><LF>>") << "bytes that come meanwhile are answered behind it";
-    EXPECT_EQ(d.ms_of(">", second), 31);
+    EXPECT_EQ(d.ms_of_prompt(second), 31);
 }
 
 TEST(TwinFreedoms, AnswersOnAPartyLineHaveAGap) {

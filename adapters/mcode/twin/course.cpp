@@ -203,9 +203,10 @@ void Course::in_step(Instant now) {
 
 /// One attempt, at VI, to bring the rotor to where the move should have ended.
 void Course::correct(Instant now) {
+    const double missing = demand.target - p_.shaft.measured(now).position;
     stand_at(p_.shaft.rotor(now).position, now);
-    p_.shaft.stand_as_measured(now);
-    p_.shaft.give(Profile::creep(now, p_.shaft.command().end_position(), demand.target, p_.settings.creep_speed()));
+    const double from = p_.shaft.command().end_position();
+    p_.shaft.give(Profile::creep(now, from, from + missing, p_.settings.creep_speed()));
     step_on();
     stall_reported_ = p_.settings[Word::SM] != 0;
 }

@@ -19,7 +19,8 @@ RealRotor::RealRotor(const MotorManners& m)
     : limited_(m.shaft.most_acceleration != 0), real_(m.shaft, m.seed), strong_(with_any_force(m.shaft), m.seed) {
     if (m.shaft.follow_ms == 0 && !limited_) return;
     const auto period_ms = static_cast<double>(std::max<std::int64_t>(2, m.shaft.follow_ms));
-    lead_s_ = 2 * static_cast<double>(m.shaft.damping_percent) / 100 * period_ms / 1000;
+    // The integration acts on the place at the end of each step, which is a millisecond of lead already.
+    lead_s_ = 2 * static_cast<double>(m.shaft.damping_percent) / 100 * period_ms / 1000 - seconds(grid);
 }
 
 void RealRotor::set(double turns, Instant now) {

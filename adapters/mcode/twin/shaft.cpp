@@ -124,17 +124,6 @@ void Shaft::let_go(Instant now) noexcept {
     state_ = Rotor::follows;
 }
 
-void Shaft::stand_as_measured(Instant now) noexcept {
-    if (stray == 0 || state_ != Rotor::follows) return;
-    Kept k = keep(now);
-    k.turns += stray;
-    const double here = measured(now).position;
-    stray = 0;
-    command_ = Profile::rest(here);
-    join();
-    put_back(k, now);
-}
-
 void Shaft::turn_to(double position, Instant now) noexcept {
     if (state_ == Rotor::held) {
         held_at_ = position;

@@ -61,8 +61,6 @@ public:
     void hold_at(double position) noexcept;
     /// Free again: what the command has gone meanwhile is slip.
     void let_go(Instant now) noexcept;
-    /// The command begins anew where the encoder shows the rotor.
-    void stand_as_measured(Instant now) noexcept;
     /// The shaft was turned to this place.
     void turn_to(double position, Instant now) noexcept;
     void chase(Profile p, Instant meeting) noexcept;

@@ -77,7 +77,8 @@ public:
             if (freedom(freedoms, f.name, f.fallback) != f.fallback) ++v.score.freedoms;
         v.twin = std::move(played.messages);
         writes_ = std::move(played.memory_writes);
-        judge_pairs(v, pair_messages(requests_, recorded_, v.twin), allowed);
+        const ReplyRange range{allowed.least - input_.tolerance, allowed.most + input_.tolerance};
+        judge_pairs(v, pair_messages(requests_, recorded_, v.twin, range), allowed);
         take_shares(v, allowed);
         count(v);
         return v;

@@ -13,7 +13,8 @@ namespace json = boost::json;
 
 /// The identifiers of the frames that drives at these addresses send, by the page's "can_answers": {"extended", "mask", "value",
 /// "node_bits"}. Bit i of the address stands in bit node_bits[i] of the identifier. Empty: the family does not use CAN.
-std::vector<CanIdentifiers> answers_of(const Catalogue& page, std::span<const std::string> addresses) {
+/// `of_drives_only`: without those that masters send, too ("masters": the heartbeat of CANopen).
+std::vector<CanIdentifiers> answers_of(const Catalogue& page, std::span<const std::string> addresses, bool of_drives_only = false) {
     std::vector<CanIdentifiers> out;
     const auto* list = page.document().if_contains("can_answers");
     if (!list || !list->is_array()) return out;
@@ -27,8 +28,12 @@ std::vector<CanIdentifiers> answers_of(const Catalogue& page, std::span<const st
             const auto* o = v.if_object();
             const auto* bits = o ? o->if_contains("node_bits") : nullptr;
             if (!node || !bits || !bits->is_array()) continue;
-            const auto* extended = o->if_contains("extended");
-            CanIdentifiers i{extended && extended->is_bool() && extended->get_bool(), number(*o, "mask"), number(*o, "value")};
+            const auto flag = [o](std::string_view key) {
+                const auto* is = o->if_contains(key);
+                return is && is->is_bool() && is->get_bool();
+            };
+            if (of_drives_only && flag("masters")) continue;
+            CanIdentifiers i{flag("extended"), number(*o, "mask"), number(*o, "value")};
             unsigned bit = 0;
             for (const auto& place : bits->get_array()) {
                 const std::uint32_t at =
@@ -48,7 +53,7 @@ std::vector<std::string> addresses_in(const Family& family, const Catalogue& pag
     for (int n = 1; n <= 127; ++n) {
         const std::string address = std::to_string(n);
         if (!family.check_address(address).empty()) continue;
-        const auto identifiers = answers_of(page, std::span(&address, 1));
+        const auto identifiers = answers_of(page, std::span(&address, 1), true);
         const auto sent = [&](const SeenFrame& f) {
             return f.frame.kind == Frame::Kind::can && !f.frame.remote && f.to_drive != true && any_holds(identifiers, f.frame);
         };

@@ -1,5 +1,7 @@
-// Pairs the messages of a drive with those of its twin, the surest pairs first: the same sentence behind the same request, then the same
-// sentence behind a later request (a late answer), then messages of the same form, and at the end messages that both sent by themselves.
+// Pairs the messages of a drive with those of its twin, the surest pairs first: the same sentence at the expected time, then the same
+// sentence behind the same request, then behind a later request (a late answer), then messages of the same form, and messages that both
+// sent by themselves. The expected time comes first, because a gateway that gets no answer in time repeats the request, and then the
+// nearest request is not the one that was answered.
 #include <algorithm>
 #include <unordered_map>
 
@@ -19,8 +21,13 @@ enum class Alike : std::uint8_t { text, form, any };
 
 class Pairing {
 public:
-    Pairing(const Requests& requests, const std::vector<Message>& recorded, const std::vector<Message>& twin)
-        : requests_(requests), recorded_(recorded), twin_(twin), to_twin_(recorded.size(), none), to_recorded_(twin.size(), none) {
+    Pairing(const Requests& requests, const std::vector<Message>& recorded, const std::vector<Message>& twin, const ReplyRange& range)
+        : requests_(requests),
+          recorded_(recorded),
+          twin_(twin),
+          range_(range),
+          to_twin_(recorded.size(), none),
+          to_recorded_(twin.size(), none) {
         for (std::size_t i = 0; i < twin.size(); ++i) {
             by_cause_[place(twin[i].stream, twin[i].cause)].push_back(i);
             by_stream_[twin[i].stream].push_back(i);
@@ -28,6 +35,7 @@ public:
     }
 
     std::vector<Pair> run() {
+        pass([&](std::size_t r) { return in_time(r); });
         pass([&](std::size_t r) { return behind_same(r, Alike::text); });
         pass([&](std::size_t r) { return behind_earlier(r, Alike::text); });
         pass([&](std::size_t r) { return behind_same(r, Alike::form); });
@@ -83,6 +91,21 @@ private:
         return it == by_cause_.end() ? none : first_alike(it->second, r, how);
     }
 
+    /// The oldest request whose answer may come at this time.
+    std::size_t in_time(std::size_t r) {
+        const Message& m = recorded_[r];
+        if (m.cause == none) return none;
+        for (std::size_t cause = m.cause - std::min(m.cause, most_requests_later); cause <= m.cause; ++cause) {
+            const auto it = by_cause_.find(place(m.stream, cause));
+            if (it == by_cause_.end()) continue;
+            for (const std::size_t t : it->second) {
+                const Duration after = m.at - twin_[t].at;
+                if (twin_[t].prompt && after >= range_.least && after <= range_.most && alike(r, t, Alike::text)) return t;
+            }
+        }
+        return none;
+    }
+
     std::size_t behind_earlier(std::size_t r, Alike how) {
         const Message& m = recorded_[r];
         if (m.cause == none || m.cause == 0) return none;
@@ -112,6 +135,7 @@ private:
 
     const Requests& requests_;
     const std::vector<Message>&recorded_, &twin_;
+    ReplyRange range_;
     std::vector<std::size_t> to_twin_, to_recorded_;
     std::unordered_map<std::uint64_t, std::vector<std::size_t>> by_cause_;
     std::unordered_map<std::uint32_t, std::vector<std::size_t>> by_stream_;
@@ -119,8 +143,9 @@ private:
 };
 }  // namespace
 
-std::vector<Pair> pair_messages(const Requests& requests, const std::vector<Message>& recorded, const std::vector<Message>& twin) {
-    return Pairing(requests, recorded, twin).run();
+std::vector<Pair> pair_messages(const Requests& requests, const std::vector<Message>& recorded, const std::vector<Message>& twin,
+                                const ReplyRange& range) {
+    return Pairing(requests, recorded, twin, range).run();
 }
 
 }  // namespace axisgate::comparison

@@ -76,8 +76,12 @@ private:
 struct Pair {
     std::size_t recorded = none, twin = none;  ///< none: this side has no such message
 };
+/// The time by which an answer may be later than that of the twin.
+struct ReplyRange {
+    Duration least{}, most{};
+};
 /// Every message of both lists once, in order of time.
 [[nodiscard]] std::vector<Pair> pair_messages(const Requests& requests, const std::vector<Message>& recorded,
-                                              const std::vector<Message>& twin);
+                                              const std::vector<Message>& twin, const ReplyRange& range);
 
 }  // namespace axisgate::comparison

@@ -172,7 +172,7 @@ bool hex_line(std::string_view line, const RecordingEvents& events) {
     if (line.starts_with('(')) {
         if (!take_stamp(line, r)) return false;
         line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
-        if (!line.starts_with('>') && !line.starts_with('<')) {
+        if (!line.starts_with('>') && !line.starts_with('<') && !hex_bytes(line)) {
             r.line = take_word(line);
             return read_trace_text(line, r, events).value_or(false);
         }

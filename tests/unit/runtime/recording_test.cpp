@@ -52,6 +52,8 @@ const RecordedLine lines[]{
     {"text_in_hex", "(1.5) ttyS1 device > AA 05 95", RecordingFormat::hex, "AA 05 95", "(1.5)", true},
     {"hex", "AA 05 95", RecordingFormat::hex, "AA 05 95"},
     {"hex_to", "> AA:05:95", RecordingFormat::hex, "AA 05 95", {}, true},
+    {"hex_time", "(1.5) > AA 05", RecordingFormat::hex, "AA 05", "(1.5)", true},
+    {"hex_time_alone", "(1.5) AA 05", RecordingFormat::hex, "AA 05", "(1.5)"},
     {"hex_from", "<AA0595", RecordingFormat::hex, "AA 05 95", {}, false},
     {"trace_can", R"([{"at":"t","to_drive":true,"kind":"can","id":69730453,"extended":true,"remote":false,"data":"01"}])",
      RecordingFormat::trace, "04280095#01", "t", true},
@@ -133,6 +135,73 @@ TEST(Recording, PlacesAreLinesAndEntries) {
     EXPECT_EQ(read("{]", RecordingFormat::trace).faults, std::vector<std::size_t>{0});
     EXPECT_EQ(read("{\"frames\":7}", RecordingFormat::trace).faults, std::vector<std::size_t>{0});
     EXPECT_EQ(read("[7, {}]", RecordingFormat::trace).faults, (std::vector<std::size_t>{1, 2}));
+}
+
+TEST(Recording, StampsAreTimes) {
+    std::vector<std::int64_t> times;
+    std::vector<std::string> names;
+    RecordingEvents events;
+    events.frame = [&](const RecordedFrame& f) {
+        times.push_back(f.at_ns.value_or(-1));
+        names.push_back(f.line);
+    };
+    events.fault = [](std::size_t, const std::string& text) { ADD_FAILURE() << text; };
+    read_recording("(1.5) can0 123#01\n(1970-01-01 00:00:02.000003) can1 123#01\n(x) can0 123#01\n", RecordingFormat::candump, events);
+    read_recording("(0.000000004) > 01\n> 02\n", RecordingFormat::hex, events);
+    EXPECT_EQ(times, (std::vector<std::int64_t>{1'500'000'000, 2'000'003'000, -1, 4, -1}));
+    EXPECT_EQ(names, (std::vector<std::string>{"can0", "can1", "can0", "", ""}));
+}
+
+TEST(Recording, CapturesAreReadBackWithTimeDirectionAndInterface) {
+    std::vector<TraceEntry> entries(3);
+    const std::uint8_t data[]{1, 2, 3};
+    entries[0].frame = Frame::can_extended(0x04280095, data);
+    entries[1].frame = Frame::run(data);
+    entries[2].frame.kind = Frame::Kind::can;
+    entries[2].frame.id = 0x123;
+    entries[2].frame.remote = true;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        entries[i].at_unix_ns = 1'700'000'000'123'456'789 + static_cast<std::int64_t>(i);
+        entries[i].to_drive = i == 1;
+        entries[i].simulated = i == 2;
+    }
+    const std::string capture = pcapng(entries, "can0");
+    EXPECT_EQ(recording_format_of(capture), RecordingFormat::pcapng);
+    std::vector<RecordedFrame> frames;
+    RecordingEvents events;
+    std::vector<std::string> faults;
+    events.frame = [&](const RecordedFrame& f) { frames.push_back(f); };
+    events.fault = [&](std::size_t, const std::string& text) { faults.push_back(text); };
+    read_recording(capture + capture, RecordingFormat::pcapng, events);  // a second section, as .axr recordings have one per line
+    ASSERT_EQ(frames.size(), 6u);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const TraceEntry& e = entries[i % 3];
+        EXPECT_TRUE(frames[i].frame.same(e.frame)) << i;
+        EXPECT_EQ(frames[i].at_ns, e.at_unix_ns);
+        EXPECT_EQ(frames[i].to_drive, e.to_drive);
+        EXPECT_EQ(frames[i].line, i % 3 == 2 ? "can0 (twin)" : "can0");
+    }
+    EXPECT_TRUE(faults.empty());
+    for (std::size_t n = 1; n < capture.size(); ++n) {
+        faults.clear();
+        read_recording(capture.substr(0, n), RecordingFormat::pcapng, events);
+        // A capture that ends between two blocks is one with fewer packets.
+        if (n % 4 != 0) EXPECT_EQ(faults.size(), 1u) << n;
+    }
+}
+
+TEST(Recording, TheFormatFollowsFromTheContent) {
+    for (const auto& [text, format] : {std::pair{"(1.5) can0 123#01", RecordingFormat::candump},
+                                       {"  can0  123  [1]  01", RecordingFormat::candump},
+                                       {"# a comment\n(1.5) > AA 05", RecordingFormat::hex},
+                                       {"< AA", RecordingFormat::hex},
+                                       {"AA 05", RecordingFormat::hex},
+                                       {"(1.5) ttyS1 device > AA", RecordingFormat::candump},
+                                       {" [{}]", RecordingFormat::trace},
+                                       {"\x89"
+                                        "AXR\r\n\x1A\n",
+                                        RecordingFormat::axr}})
+        EXPECT_EQ(recording_format_of(text), format) << text;
 }
 
 TEST(Recording, ALongRunOfBytesComesInPieces) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "gateway/core/specimen.hpp"
 #include "gateway/core/text.hpp"
@@ -27,6 +28,22 @@ std::vector<std::string> axes_in(const Recipe& recipe) {
         if (s.condition) add(s.condition->axis);
     });
     return out;
+}
+
+/// Without the lines on which the recipe uses no axis: they cost time and change nothing. Mappings stay; the recipe uses none of the
+/// others.
+void leave_lines_of(Site& site, const std::vector<std::string>& axes) {
+    std::set<std::string, std::less<>> lines;
+    for (const AxisSpec& axis : site.axes) {
+        const DriveSpec* drive = std::ranges::find(axes, axis.name) == axes.end() ? nullptr : site.drive(axis.drive);
+        if (drive) lines.insert(drive->line);
+    }
+    std::erase_if(site.axes, [&](const AxisSpec& a) {
+        const DriveSpec* drive = site.drive(a.drive);
+        return !drive || !lines.contains(drive->line);
+    });
+    std::erase_if(site.drives, [&](const DriveSpec& d) { return !lines.contains(d.line); });
+    std::erase_if(site.lines, [&](const LineSpec& l) { return !lines.contains(l.name); });
 }
 
 /// The names of axes that did not come online; the gateway runs until there are none, or the limit has passed.
@@ -117,6 +134,7 @@ RecipeRehearsal::RecipeRehearsal(const Families& families, RecipeRehearsalWish w
     const RehearsalGateway gateway(families_, wish_.site, wish_.memory, wish_.lease);
     check_recipe(recipe_, gateway, faults);
     axes_ = axes_in(recipe_);
+    leave_lines_of(wish_.site, axes_);
 }
 
 Site RecipeRehearsal::site_of(std::string_view specimen) const {

@@ -34,7 +34,7 @@ TEST_P(DrawnSpecimens, LawsHold) {
     }
 }
 
-std::vector<Subject> with_freedoms() {
+std::vector<Subject> subjects_with_freedoms() {
     std::vector<Subject> out;
     for (const Subject& s : subjects()) {
         if (!s.catalogue->freedoms().empty()) out.push_back(s);
@@ -42,7 +42,7 @@ std::vector<Subject> with_freedoms() {
     return out;
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, DrawnSpecimens, testing::ValuesIn(with_freedoms()), name_of_subject);
+INSTANTIATE_TEST_SUITE_P(Families, DrawnSpecimens, testing::ValuesIn(subjects_with_freedoms()), name_of_subject);
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(DrawnSpecimens);
 
 }  // namespace

@@ -58,6 +58,16 @@ public:
             one_step(demand(last_));
         }
     }
+    /// It stays where it is as long as its demand does.
+    [[nodiscard]] bool rests() const noexcept {
+        const double off = demand_ - x_;
+        return v_ == 0 && demand_velocity_ == 0 && (off == 0 || (off < 0 ? -off : off) <= static_cast<double>(free_.friction_increments));
+    }
+    /// As `advance`, for a shaft that rests and whose demand has not changed since the last advance: without the steps.
+    void pass_time(Instant now) noexcept {
+        off_since_ = never;
+        if (now > last_) last_ = time_zero + (now - time_zero) / step * step;
+    }
     /// While the drive has no power: the shaft drifts from where it was switched off, whatever the demand is. Call `advance` for the instant
     /// of switching off before.
     void advance_without_power(Instant now);

@@ -16,6 +16,8 @@ void FreeServo::set_freedoms(const Freedoms& freedoms, Instant now) {
         b.due = never;
     orders_.knows_target_time = !free_.lacks(0x60C2);
     switches_.hysteresis = free_.switch_hysteresis;
+    // A shaft without freedoms is looked at only while it is blocked; one with freedoms in each motion, and therefore less often.
+    set_watch(m_.differs() || switches_.hysteresis > 0 ? std::chrono::milliseconds(5) : std::chrono::milliseconds(1));
 }
 
 void FreeServo::power_on(Instant now) {

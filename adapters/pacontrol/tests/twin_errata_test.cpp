@@ -128,7 +128,7 @@ TEST(TwinErrata, E25_E26_E27_E28_TheCommandsOfTheAxisThatTheOverviewMixesUp) {
     b.hand("temperature", 40.03);
     EXPECT_NEAR(b.value("1920;1;1;0"), 40.03, 1e-3);
     Rig r;
-    r.control.axis(1).set_temperature(40.03);
+    r.control.axis(1).outside().temperature = 40.03;
     r.command(0x1920, 1);
     EXPECT_EQ(r.get(0, 4), 0x42201EB8u);
 }

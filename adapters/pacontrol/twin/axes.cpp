@@ -46,7 +46,7 @@ void Axes::settle(Instant now) {
 Instant Axes::deadline() const noexcept {
     Instant next = never;
     for (const Axis& a : axes_)
-        next = std::min(next, a.deadline());
+        next = std::min(next, a.traverse().deadline());
     return next;
 }
 

@@ -7,22 +7,12 @@
 
 namespace axisgate::pacontrol::twin {
 
-std::uint8_t Axis::status() const noexcept {
-    if (state_.measuring) return 8;
-    if (state_.fault != 0) return 4;
-    if (running()) return 1;
-    return traverse_.stopped() ? 2 : 0;
-}
-
-Axis::Shown Axis::telling() const noexcept {
-    const bool hidden = !model_.reference_shown && running() && traverse_.task() == Task::reference && state_.fault == 0;
-    return hidden ? Shown{} : Shown{status(), running()};
-}
+std::uint8_t Axis::status() const noexcept { return status_of(state_, shaft_, traverse_); }
 
 void Axis::advance(Instant t) {
     traverse_.follow(t);
-    position_.follow(t, [&](Instant at) { return own_position(at); });
-    if (on_at_ <= t) (void)now_on(on_at_, on_goes_on_);
+    shown_.before(t);
+    if (state_.on_at <= t) (void)switch_on(t, state_.on_goes_on);
     traverse_.advance(t);
 }
 
@@ -52,16 +42,14 @@ void Axis::delete_g29() noexcept {
 }
 
 std::uint16_t Axis::switch_on(Instant t, bool go_on) {
-    const bool at_once = model_.axis_on == Duration::zero() || (state_.enabled() && !state_.off);
-    if (at_once || state_.fault != 0 || !state_.outside.power_pack || state_.measuring) return now_on(t, go_on);
-    if (!switching_on()) on_at_ = t + model_.axis_on;
-    on_goes_on_ = go_on;
-    return quit::ok;
-}
-
-std::uint16_t Axis::now_on(Instant t, bool go_on) {
-    on_at_ = never;
+    const Instant on_at = std::exchange(state_.on_at, never);
     if (state_.fault != 0 || !state_.outside.power_pack || state_.measuring) return quit::not_ready;
+    const bool is_on = state_.enabled() && !state_.off;
+    if (model_.axis_on > Duration::zero() && !is_on && on_at > t) {
+        state_.on_at = on_at != never ? on_at : t + model_.axis_on;
+        state_.on_goes_on = go_on;
+        return quit::ok;
+    }
     const bool was_off = std::exchange(state_.off, false) || !state_.enabled();
     if (was_off && model_.switch_on_mode == 4 && std::abs(shaft_.place(t) - state_.off_place) > model_.max_displacement) {
         state_.displaced = true;
@@ -80,7 +68,7 @@ std::uint16_t Axis::now_on(Instant t, bool go_on) {
 
 /// Enable mode [L734-738]; its values but 1 are not printed: 0 and 1 IDLE, 2 HALT, 3 SAFE in this model.
 void Axis::switch_off(Instant t) {
-    on_at_ = never;
+    state_.on_at = never;
     if (state_.off || !state_.enabled()) return;
     state_.off = true;
     state_.off_position = shaft_.position(t);
@@ -156,8 +144,8 @@ void Axis::boot(const Kept& kept) {
     state_.off_place = kept.shaft;
     state_.off = static_cast<int>(p_[ap::enable_mode]) != 1;
     state_.power = state_.off ? AxisPower::idle : AxisPower::on;
-    on_at_ = never;
-    shown_.set(telling());
+    state_.on_at = never;
+    shown_.boot();
 }
 
 // --- the hand ---
@@ -194,17 +182,16 @@ void Axis::set_power_pack(bool ready, Instant t) {
     if (!ready && state_.enabled() && !state_.measuring && state_.fault == 0) traverse_.abort_with(error::power_pack, quit::not_ready, t);
 }
 
-bool Axis::push_to(double ae, Instant t) {
-    if (shaft_.running() || (state_.enabled() && !state_.measuring)) return false;
-    const double way = ae - shaft_.place(t);
-    shaft_.push(way, !state_.measuring);  // measuring: the encoder counts it, the position counter does not until measuring ends
-    state_.changed = true;
-    return true;
-}
-
-bool Axis::push_unpowered(double ae) noexcept {
-    shaft_.count(ae - shaft_.rest_place());
-    shaft_.hold_here();
+bool Axis::push_to(double ae, bool supply, Instant t) {
+    if (!supply) {
+        shaft_.count(ae - shaft_.rest_place());
+        shaft_.hold_here();
+    } else if (shaft_.running() || (state_.enabled() && !state_.measuring)) {
+        return false;
+    } else {
+        const double way = ae - shaft_.place(t);
+        shaft_.push(way, !state_.measuring);  // measuring: the encoder counts it, the position counter does not until measuring ends
+    }
     state_.changed = true;
     return true;
 }

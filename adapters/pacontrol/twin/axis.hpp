@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "adapters/pacontrol/twin/shown.hpp"
-#include "adapters/pacontrol/twin/traverse.hpp"
 
 namespace axisgate::pacontrol::twin {
 
@@ -24,15 +23,8 @@ public:
     [[nodiscard]] bool running() const noexcept { return shaft_.running(); }
     /// 0 in position, 1 moving, 2 stopped, 4 malfunction, 8 measuring mode [L2960].
     [[nodiscard]] std::uint8_t status() const noexcept;
-    /// The status, and whether it runs, as the commands tell; as of the last `settle`.
-    struct Shown {
-        std::uint8_t status = 0;
-        bool running = false;
-        bool operator==(const Shown&) const = default;
-    };
-    [[nodiscard]] Shown shown() const noexcept { return shown_.delays() ? shown_.shown() : telling(); }
-    /// The position as the commands tell it.
-    [[nodiscard]] double shown_position(Instant t) const noexcept { return position_.samples() ? position_.value() : own_position(t); }
+    /// What the commands tell of it.
+    [[nodiscard]] const AxisShown& shown() const noexcept { return shown_; }
     [[nodiscard]] const AxisModel& model() const noexcept { return model_; }
     [[nodiscard]] const AxisParameters& parameters() const noexcept { return p_; }
     void set_parameter(std::size_t number, float value) noexcept { p_.at(number) = value; }
@@ -44,17 +36,14 @@ public:
     void delete_g29() noexcept;
 
     // --- time ---
-    /// Everything that is due by `t`; a deadline of its own is never passed over.
+    /// Everything that is due by `t`; the deadline of its traverse is never passed over.
     void advance(Instant t);
-    [[nodiscard]] Instant deadline() const noexcept { return std::min(traverse_.deadline(), on_at_); }
     /// After anything of it may have changed at `t`.
-    void settle(Instant t) { shown_.follow(telling(), t); }
+    void settle(Instant t) { shown_.settle(t); }
 
     // --- power and measuring ---
     /// 0, or a command error. `go_on`: an interrupted traverse goes on by the switch-on mode; false while the control is stopped.
     [[nodiscard]] std::uint16_t switch_on(Instant t, bool go_on);
-    /// 0A97 was acknowledged, and it is not on yet.
-    [[nodiscard]] bool switching_on() const noexcept { return on_at_ != never; }
     void switch_off(Instant t);
     /// G140 (true) / G141: motor without power.
     void disable(bool disabled, Instant t);
@@ -76,12 +65,10 @@ public:
     void set_following_error(double ae, Instant t);
     void set_power_pack(bool ready, Instant t);
     void set_load(double share) noexcept { shaft_.set_load(share); }
-    void set_temperature(double celsius) noexcept { state_.outside.temperature = celsius; }
-    void set_encoder_broken(bool broken) noexcept { state_.outside.encoder_broken = broken; }
-    /// False: the motor holds the shaft.
-    [[nodiscard]] bool push_to(double ae, Instant t);
-    /// Without supply anybody can push it; an absolute system sees it at the next power on.
-    bool push_unpowered(double ae) noexcept;
+    /// Temperature and encoder; the power pack has its own.
+    [[nodiscard]] AxisOutside& outside() noexcept { return state_.outside; }
+    /// False: the motor holds the shaft. Without `supply` anybody can push it; an absolute system sees it at the next power on.
+    [[nodiscard]] bool push_to(double ae, bool supply, Instant t);
 
     // --- memory ---
     struct Kept {
@@ -95,22 +82,13 @@ public:
     void boot(const Kept& kept);
 
 private:
-    [[nodiscard]] Shown telling() const noexcept;
-    [[nodiscard]] double own_position(Instant t) const noexcept {
-        return model_.measured_position ? shaft_.encoder(t) : shaft_.position(t);
-    }
-    std::uint16_t now_on(Instant t, bool go_on);
-
     AxisModel model_;
     AxisParameters p_;
     AxisState state_;
     Shaft shaft_{model_.mechanics, model_.seed};
     Switches switches_{model_, p_, shaft_};
     Traverse traverse_{model_, p_, state_, shaft_, switches_};
-    Delayed<Shown> shown_{model_.status_behind};
-    Sampled position_{model_.position_every};
-    Instant on_at_ = never;    ///< when it is on ...
-    bool on_goes_on_ = false;  ///< ... and whether an interrupted traverse goes on then
+    AxisShown shown_{model_, state_, shaft_, traverse_};
 };
 
 }  // namespace axisgate::pacontrol::twin

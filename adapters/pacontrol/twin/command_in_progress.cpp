@@ -17,14 +17,14 @@ CommandReply CommandInProgress::reply(Instant now) {
         case Awaits::reference:
         case Awaits::halt: {
             const Axis& a = axes_.at(job_.axis);
-            r.data = job_.awaits == Awaits::reference ? Datum{} : Datum::number(a.shown_position(now));
+            r.data = job_.awaits == Awaits::reference ? Datum{} : Datum::number(a.shown().position(now));
             r.done = job_.awaits == Awaits::halt ? !a.running() : !a.traverse().busy();
             if (r.done && job_.awaits != Awaits::halt) r.quit = a.traverse().ended_with();
             break;
         }
         case Awaits::power: {
             r.data = Datum::integer(0);
-            r.done = !axes_.at(job_.axis).switching_on();
+            r.done = !axes_.at(job_.axis).state().switching_on();
             break;
         }
         case Awaits::mode: {

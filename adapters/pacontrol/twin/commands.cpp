@@ -169,7 +169,7 @@ CommandReply of_axis(Control& k, const Call& c, F&& f) {
 }
 
 CommandReply get_position(Control& k, const Call& c) {
-    return of_axis(k, c, [&](const Axis& a) { return say_real(a.shown_position(c.now)); });
+    return of_axis(k, c, [&](const Axis& a) { return say_real(a.shown().position(c.now)); });
 }
 
 CommandReply get_speed(Control& k, const Call& c) {
@@ -190,13 +190,13 @@ CommandReply get_greatest_lag(Control& k, const Call& c) {
 }
 
 CommandReply get_axis_status(Control& k, const Call& c) {
-    return of_axis(k, c, [&](const Axis& a) { return say(a.shown().status); });
+    return of_axis(k, c, [&](const Axis& a) { return say(a.shown().status().number); });
 }
 
 CommandReply get_running(Control& k, const Call&) {
     int mask = 0;
     for (int n = 1; k.settings().has_axis(n); ++n)
-        mask |= (k.axis(n).shown().running ? 1 : 0) << (n - 1);
+        mask |= (k.axis(n).shown().status().running ? 1 : 0) << (n - 1);
     return say(mask);
 }
 
@@ -226,7 +226,7 @@ CommandReply get_temperature(Control& k, const Call& c) {
 CommandReply get_extended(Control& k, const Call& c) {
     return of_axis(k, c, [&](const Axis& a) {
         return say((a.state().outside.power_pack ? 0x01000000 : 0) + (a.switches().limit(true) ? 0 : 0x00010000) +
-                   (a.switches().limit(false) ? 0 : 0x00000100) + a.shown().status);
+                   (a.switches().limit(false) ? 0 : 0x00000100) + a.shown().status().number);
     });
 }
 
@@ -287,7 +287,7 @@ CommandReply move(Control& k, const Call& c) {
     const int n = axis_of(c);
     const bool relative = c.code == 0x0A89 || c.code == 0x0A91 || c.code == 0x0A95;
     const bool manual = c.code == 0x0A90 || c.code == 0x0A91;
-    const double from = k.axis(n).shown_position(c.now);
+    const double from = k.axis(n).shown().position(c.now);
     const std::uint16_t q = k.motions().start_move(n, c.data.value, relative, manual ? Task::manual : Task::position, c.now);
     if (q != 0) return refuse(q);
     if (c.code != 0x0A87 && c.code != 0x0A89) return say_real(from);
@@ -320,7 +320,7 @@ CommandReply set_acceleration(Control& k, const Call& c) {
 CommandReply renew(Control& k, const Call& c) {
     return of_axis(k, c, [&](Axis& a) {
         a.traverse().renew(c.now);
-        return say_real(a.shown_position(c.now));
+        return say_real(a.shown().position(c.now));
     });
 }
 
@@ -330,7 +330,7 @@ CommandReply abort_move(Control& k, const Call& c) {
     k.axis(axis_of(c)).traverse().finish(c.now);
     k.settle(c.now);
     if (c.code == 0x0A93) return k.begin({Awaits::halt, axis_of(c)}, c.now);
-    return say_real(k.axis(axis_of(c)).shown_position(c.now));
+    return say_real(k.axis(axis_of(c)).shown().position(c.now));
 }
 
 CommandReply axis_on(Control& k, const Call& c) {

@@ -126,7 +126,7 @@ const HandRow<Axis, Device::AxisHand> Device::axis_conditions[] = {
      [](const Axis& a, Instant) -> Value { return a.switches().home_by_hand(); },
      [](AxisHand& h, const HandWish& w) { return w.flag([&](bool on) { h.axis.set_home_switch(on, w.now); }); }},
     {"temperature", true, "deg C, as 1920 tells", [](const Axis& a, Instant) -> Value { return a.state().outside.temperature; },
-     [](AxisHand& h, const HandWish& w) { return within(w, -40, 200, [&](double x) { h.axis.set_temperature(x); }); }},
+     [](AxisHand& h, const HandWish& w) { return within(w, -40, 200, [&](double x) { h.axis.outside().temperature = x; }); }},
     {"load", true, "0..1: the axis lags by 1 ms of its way at full load", [](const Axis& a, Instant) -> Value { return a.shaft().load(); },
      [](AxisHand& h, const HandWish& w) { return within(w, 0, 1, [&](double x) { h.axis.set_load(x); }); }},
     {"following_error", true, "0.001 AE, added to the axis' own",
@@ -136,7 +136,7 @@ const HandRow<Axis, Device::AxisHand> Device::axis_conditions[] = {
      [](AxisHand& h, const HandWish& w) { return w.flag([&](bool on) { h.axis.set_power_pack(on, w.now); }); }},
     {"encoder_broken", true, "no encoder edges: E560 when measuring ends with synchronisation",
      [](const Axis& a, Instant) -> Value { return a.state().outside.encoder_broken; },
-     [](AxisHand& h, const HandWish& w) { return w.flag([&](bool on) { h.axis.set_encoder_broken(on); }); }},
+     [](AxisHand& h, const HandWish& w) { return w.flag([&](bool on) { h.axis.outside().encoder_broken = on; }); }},
     {"jog", true, "front panel in manual mode: -1, 1 moves at manual speed, 0 stops",
      [](const Axis&, Instant) -> Value { return std::int64_t{0}; },
      [](AxisHand& h, const HandWish& w) {
@@ -147,7 +147,7 @@ const HandRow<Axis, Device::AxisHand> Device::axis_conditions[] = {
      [](const Axis& a, Instant at) -> Value { return at == Instant::min() ? 0.0 : std::round(a.shaft().place(at) * 1000); },
      [](AxisHand& h, const HandWish& w) {
          return within(w, -1e12, 1e12, [&](double x) -> std::string {
-             if (h.device.powered_ ? h.axis.push_to(x / 1000, w.now) : h.axis.push_unpowered(x / 1000)) return {};
+             if (h.axis.push_to(x / 1000, h.device.powered_, w.now)) return {};
              return "position: the motor holds the shaft; switch the axis off (0A98) or into measuring mode (0AA0)";
          });
      }},

@@ -53,8 +53,13 @@ struct AxisState {
     double shift = 0;          ///< AE, G29
     double off_position = 0;   ///< AE, when it was switched off (SR51..) ...
     double off_place = 0;      ///< ... and of the shaft
+    Instant on_at = never;     ///< 0A97 was acknowledged: when it will be on, if that takes time ...
+    bool on_goes_on = false;   ///< ... and whether an interrupted traverse goes on then
     AxisOutside outside;
 
+    [[nodiscard]] bool switching_on() const noexcept { return on_at != never; }
+    /// The motor holds the shaft, whether it moves or not.
+    [[nodiscard]] bool holds() const noexcept { return enabled() && !off && !measuring; }
     [[nodiscard]] bool enabled() const noexcept { return power == AxisPower::on || power == AxisPower::halt; }
 };
 

@@ -19,7 +19,7 @@ std::optional<bool> SystemViews::flag(std::int64_t n) const {
 
 std::optional<std::int32_t> SystemViews::integer(std::int64_t n) const {
     if (n == 10) return error_.shown();
-    if (within(n, 71)) return axis_of(n, 71) != nullptr ? axis_of(n, 71)->shown().status : 0;
+    if (within(n, 71)) return axis_of(n, 71) != nullptr ? axis_of(n, 71)->shown().status().number : 0;
     return std::nullopt;
 }
 

@@ -260,16 +260,15 @@ Instant Traverse::limit_passed() const noexcept {
 }
 
 Instant Traverse::deadline() const noexcept {
-    const Instant lag = most_lag() > 0 && moved_by_motor() ? shaft_.lag_due() : never;
-    if (!shaft_.running()) return lag;
-    return std::min({shaft_.path().end(), watchdog_, lag_exceeded(), limit_passed(), lag});
+    const Instant lag = most_lag() > 0 && (shaft_.running() || state_.holds()) ? shaft_.lag_due() : never;
+    const Instant standing = std::min(lag, state_.on_at);
+    if (!shaft_.running()) return standing;
+    return std::min({shaft_.path().end(), watchdog_, lag_exceeded(), limit_passed(), standing});
 }
 
 /// Power goes as soon as the ramp to standstill is over.
-bool Traverse::moved_by_motor() const noexcept { return shaft_.running() || (state_.enabled() && !state_.off && !state_.measuring); }
-
 void Traverse::follow(Instant t) {
-    const Instant exceeded = shaft_.follow(t, moved_by_motor(), state_.fault == 0 ? most_lag() : 0);
+    const Instant exceeded = shaft_.follow(t, shaft_.running() || state_.holds(), state_.fault == 0 ? most_lag() : 0);
     lagged_ = std::min(lagged_, exceeded);
 }
 

@@ -83,7 +83,6 @@ private:
     void hit_limit(bool positive, Instant t);
     /// AE that the following error may have; 0: it is not monitored.
     [[nodiscard]] double most_lag() const noexcept;
-    [[nodiscard]] bool moved_by_motor() const noexcept;
     [[nodiscard]] Instant lag_exceeded() const noexcept;
     [[nodiscard]] Instant limit_passed() const noexcept;
 

@@ -17,15 +17,14 @@ double real(std::int64_t v) { return static_cast<double>(v); }
 
 MacsAxis::MacsAxis(const Objects& objects, canopen::Dictionary& dictionary, Terminals& terminals, int axis, double travel,
                    const Manners& manners)
-    : objects_(objects),
+    : machine(manners, axis),
+      objects_(objects),
       d_(dictionary),
       terminals_(terminals),
       axis_(axis),
       base_(static_cast<std::uint16_t>(per_axis * axis)),
       travel_(travel),
       servo_(dictionary, travel, static_cast<std::uint16_t>(per_axis * axis)),
-      real_(manners.shaft, manners.seed + static_cast<std::uint64_t>(axis)),
-      friction_(static_cast<double>(manners.shaft.friction_increments)),
       hysteresis_(manners.switch_hysteresis) {
     servo_.set_watch(std::chrono::milliseconds(20 * axes));  // the axes are checked in turn, every 20 ms [L6010]
 }
@@ -50,7 +49,7 @@ void MacsAxis::power_on(Instant now) {
     current_ = {};
     jump_.readings = jump_.count = 0;
     settle(true);
-    follow(now);
+    machine.follow(servo_.shaft(), servo_.powered(), now);
     servo_.power_on(now);
     encoder_zero_ = servo_.units().zero();
 }
@@ -154,34 +153,6 @@ std::uint16_t MacsAxis::forbids(double direction, Instant now) const {
     const double place = servo_.shaft().demand(now).position;
     if (violated_ == (positive ? 1 : -1) && (outside(positive, place) || at_switch_[positive ? 1 : 0])) return limit_violated;
     return at_switch_[positive ? 1 : 0] || outside(positive, place) ? end_limit : std::uint16_t{0};
-}
-
-/// While the motor has no power and stands, the controller's shaft is taken along by the drift, so that enabling does not move it back.
-void MacsAxis::follow(Instant now) {
-    if (!real_.differs()) return;
-    auto& shaft = servo_.shaft();
-    if (shaft.held()) {
-        real_.set(shaft.shaft(now).position, now);
-    } else if (servo_.powered() || shaft.moves(now)) {
-        real_.advance(now, [&](Instant at) { return shaft.shaft(at).position; });
-        was_on_ = true;
-    } else if (!was_on_) {
-        real_.set(shaft.shaft(now).position, now);
-    } else {
-        real_.advance_without_power(now);
-        shaft.rest_at(real_.position(), now);
-    }
-    deviation_ = real_.shown() - shaft.shaft(now).position;
-    misread_by(jump_by_);
-}
-bool MacsAxis::unsettled(Instant now) const {
-    const auto& shaft = servo_.shaft();
-    if (!real_.differs() || shaft.held() || !(servo_.powered() || shaft.moves(now))) return false;
-    return shaft.moves(now) || real_.velocity() != 0 || std::fabs(real_.following_error()) > friction_ + 1;
-}
-void MacsAxis::misread_by(double jump) {
-    jump_by_ = jump;
-    servo_.shaft().misread(jump_by_ + deviation_);
 }
 
 bool MacsAxis::written(canopen::Address a, Instant now) {
@@ -338,7 +309,7 @@ void MacsAxis::tick(bool led, Instant at) {
 void MacsAxis::misread(double by, Instant now) {
     const auto shaft = servo_.shaft().shaft(now);
     jump_ = {by, shaft.position, shaft.velocity / 1000, now, 0, jump_.count};
-    misread_by(0);
+    machine.misread(servo_.shaft(), 0);
     if (by != 0) read_encoder(now);
 }
 /// One reading while the encoder is wrong. A jump of more than half its resolution is recognised and replaced by the position that follows
@@ -347,9 +318,9 @@ void MacsAxis::read_encoder(Instant at) {
     const auto code = encoder_of(value("ENCODERTYPE"), false).value_or(EncoderCode{});
     const bool reported = code.source == Encoder::linear_absolute && std::fabs(jump_.by) > real(value("ENCODER")) / 2;
     if (reported) ++jump_.count;
-    if (!reported || ++jump_.readings > corrected_readings) return misread_by(jump_.by);
+    if (!reported || ++jump_.readings > corrected_readings) return machine.misread(servo_.shaft(), jump_.by);
     const double artificial = jump_.from + jump_.velocity * seconds(at - jump_.since) * 1000;
-    misread_by(artificial - servo_.shaft().shaft(at).position);
+    machine.misread(servo_.shaft(), artificial - servo_.shaft().shaft(at).position);
 }
 
 void MacsAxis::define_origin(Instant now) {

@@ -8,8 +8,8 @@
 #include "adapters/aposs/twin/coded.hpp"
 #include "adapters/aposs/twin/filters.hpp"
 #include "adapters/aposs/twin/homing.hpp"
-#include "adapters/aposs/twin/manners.hpp"
 #include "adapters/aposs/twin/objects.hpp"
+#include "adapters/aposs/twin/real_shaft.hpp"
 #include "adapters/aposs/twin/synchronisation.hpp"
 #include "adapters/cia402/twin/servo.hpp"
 
@@ -79,13 +79,7 @@ public:
     /// ERRCOND 2 and 3: after the stop the axis is still controlled.
     [[nodiscard]] bool holds_in_error() const;
 
-    /// The real shaft follows the controller's until `now`: called before each change of the motion, and before the position is read.
-    void follow(Instant now);
-    /// The real shaft differs from the controller's, and has not come to rest.
-    [[nodiscard]] bool unsettled(Instant now) const;
-    [[nodiscard]] double place(Instant now) const { return real_.differs() ? real_.position() : servo_.shaft().shaft(now).position; }
-    /// Empty: that of the controller's shaft.
-    [[nodiscard]] std::optional<double> velocity() const { return real_.differs() ? std::optional(real_.velocity()) : std::nullopt; }
+    [[nodiscard]] double place(Instant now) const { return machine.place(servo_.shaft(), now); }
     [[nodiscard]] std::int64_t track_error(Instant now) const;  ///< SYSVAR 4124, percent
     [[nodiscard]] const CurrentWatch& current() const noexcept { return current_; }
     /// The encoder as the controller counts it: 0 at power-on and where an origin command has set it to 0, independent of the zero of the
@@ -104,6 +98,7 @@ public:
     [[nodiscard]] const Misreading& misreading() const noexcept { return jump_; }
     double load = 0;           ///< fraction of AMPMAXCUR that the motor needs under power, 0 to 1
     bool index_pulses = true;  ///< the encoder has index pulses
+    RealShaft machine;         ///< follows the calculated shaft of the servo
     [[nodiscard]] std::int64_t of(std::uint16_t index, std::uint8_t sub = 0) const {
         return d_.integer({static_cast<std::uint16_t>(index + base_), sub}).value_or(0);
     }
@@ -111,7 +106,6 @@ public:
 
 private:
     [[nodiscard]] HomingInput homing_input(Instant now);
-    void misread_by(double jump);
     void homing_order(const HomingRun::Order& order, Instant now);
     [[nodiscard]] double limit_place(bool positive) const;
     [[nodiscard]] bool outside(bool positive, double place) const;
@@ -133,11 +127,9 @@ private:
     bool hot_ = false;     ///< error 99 was reported
     Misreading jump_;
     double encoder_zero_ = 0;
-    Shaft real_;  ///< in qc of the controller's shaft
-    double friction_ = 0, hysteresis_ = 0;
-    double jump_by_ = 0, deviation_ = 0;    ///< parts of the encoder's error: by hand, and by the real shaft
-    bool in_cam_ = false, was_on_ = false;  ///< an axis drifts only from where it was held
-    int violated_ = 0;                      ///< the limit whose error was reported: -1, 1, until the axis is back inside
+    double hysteresis_ = 0;  ///< of the reference cam
+    bool in_cam_ = false;
+    int violated_ = 0;  ///< the limit whose error was reported: -1, 1, until the axis is back inside
     std::array<bool, 2> at_switch_{};
     std::vector<cia402_drive::twin::Device::Reported> reported_;
 };

@@ -25,6 +25,37 @@ void define_bus(BusDevices& bus, const std::deque<MacsAxis>& of, int k) {
     bus.set(k, BusDevices::By::encoder, a.value("ENCODERTYPE"));
     bus.set(k, BusDevices::By::master, a.value("MENCODERTYPE"));
 }
+void follow(std::deque<MacsAxis>& of, Instant now) {
+    for (MacsAxis& a : of)
+        a.machine.follow(a.servo().shaft(), a.servo().powered(), now);
+}
+/// The second axis may start later than the controller.
+bool started(int k, const Manners& manners, Instant powered_at, Instant now) { return k == 0 || now >= powered_at + manners.axis_start; }
+/// Keeps the values that are shown late; each change of the state ends here.
+void note(std::array<ShownLate, axes>& shown, const std::deque<MacsAxis>& of, Instant now) {
+    for (std::size_t k = 0; k < shown.size(); ++k) {
+        const Servo& servo = of[k].servo();
+        if (shown[k].status.late()) shown[k].status.note(servo.statusword(now), now);
+        if (shown[k].position.late()) shown[k].position.note(std::llround(servo.shaft().read(now)), now);
+    }
+}
+/// In each millisecond of a motion, values that are shown late must be noted, and a real shaft must follow until it rests.
+bool samples(const std::deque<MacsAxis>& of, const Manners& manners, Instant now) {
+    const bool late = manners.status_late != Duration::zero() || manners.position_late != Duration::zero();
+    return std::ranges::any_of(of, [&](const MacsAxis& a) {
+        const Servo& s = a.servo();
+        return (late && s.shaft().moves(now)) || a.machine.unsettled(s.shaft(), s.powered(), now);
+    });
+}
+void show_late(MacsAxis& a, const ShownLate& shown, Instant now) {
+    if (const auto v = a.machine.velocity()) a.put(0x606C, 0, a.servo().units().speed_in_units(*v));
+    if (shown.status.late()) a.put(0x6041, 0, static_cast<double>(shown.status.at(now)));
+    if (!shown.position.late()) return;
+    const auto read = static_cast<double>(shown.position.at(now));
+    a.put(0x6063, 0, read);
+    a.put(0x6064, 0, a.servo().units().in_units(read));
+    a.put(0x60F4, 0, a.servo().units().way_in_units(a.servo().shaft().demand(now).position - read));
+}
 void tell_drives(BusDevices& bus, const std::deque<MacsAxis>& of) {
     for (int k = 0; k < axes; ++k) {
         const MacsAxis& a = of[static_cast<std::size_t>(k)];
@@ -50,7 +81,7 @@ void Macs::power_on(Instant now) {
     powered_at_ = now;
     orders_.clear();
     cycle_at_ = never;
-    for (Shown& s : shown_)
+    for (ShownLate& s : shown_)
         s.status.forget(), s.position.forget();
     for (MacsAxis& a : axes_)
         a.power_on(now);
@@ -67,7 +98,7 @@ void Macs::power_off(Instant now) {
     orders_.clear();
     cycle_at_ = never;
     for (MacsAxis& a : axes_) {
-        a.follow(now);
+        a.machine.follow(a.servo().shaft(), a.servo().powered(), now);
         a.servo().power_off(now);
     }
 }
@@ -85,7 +116,7 @@ canopen::Abort Macs::may_write(Address a, std::int64_t v, Instant now) const {
     }
     for (int k = 0; k < axes; ++k)
         if (a.index >= 0x6000 + per_axis * k && a.index < 0x6000 + per_axis * (k + 1)) {
-            if (!started(k, now)) return canopen::Abort::device_state;
+            if (!started(k, manners_, powered_at_, now)) return canopen::Abort::device_state;
             return axis(k + 1).servo().may_write(a, v, now);
         }
     return canopen::Abort::none;
@@ -100,19 +131,8 @@ void Macs::written(Address a, Instant now) {
     if (orders_.size() < most_orders && std::ranges::find(orders_, a) == orders_.end()) orders_.push_back(a);
     if (cycle_at_ == never) cycle_at_ = now + every - now.time_since_epoch() % every;
 }
-void Macs::take_cycle(Instant at) {
-    cycle_at_ = never;
-    for (const Address a : std::exchange(orders_, {}))
-        apply(a, at);
-}
-
-void Macs::follow(Instant now) {
-    for (MacsAxis& a : axes_)
-        a.follow(now);
-}
-
 void Macs::apply(Address a, Instant now) {
-    follow(now);
+    follow(axes_, now);
     if (const Row* row = objects_.at(a)) {
         changed(row->key, now);
     } else {
@@ -143,7 +163,7 @@ void Macs::changed(const Key& key, Instant now) {
 
 void Macs::set_inputs(std::uint32_t mask, Instant now) {
     const auto active = [&](const char* id) { return terminals_.active(axes_[0].value(id)); };
-    follow(now);
+    follow(axes_, now);
     const bool breaks = active("I_BREAK"), clears = active("I_ERRCLR"), starts = active("I_PRGSTART");
     terminals_.inputs = mask;
     for (MacsAxis& a : axes_)
@@ -195,40 +215,14 @@ std::vector<Device::Reported> Macs::take_reported() {
     return all;
 }
 
-/// Keeps the values that are shown late; each change of the state ends here.
-void Macs::note(Instant now) {
-    for (std::size_t k = 0; k < shown_.size(); ++k) {
-        const Servo& servo = axes_[k].servo();
-        if (shown_[k].status.late()) shown_[k].status.note(servo.statusword(now), now);
-        if (shown_[k].position.late()) shown_[k].position.note(std::llround(servo.shaft().read(now)), now);
-    }
-}
-/// Both must be noted in each millisecond of a motion.
-bool Macs::samples(Instant now) const {
-    if (manners_.status_late == Duration::zero() && manners_.position_late == Duration::zero()) return false;
-    return std::ranges::any_of(axes_, [&](const MacsAxis& a) { return a.servo().shaft().moves(now); });
-}
-void Macs::show_late(int k, Instant now) {
-    MacsAxis& a = axis(k + 1);
-    const Shown& s = shown_[static_cast<std::size_t>(k)];
-    if (const auto v = a.velocity()) a.put(0x606C, 0, a.servo().units().speed_in_units(*v));
-    if (s.status.late()) a.put(0x6041, 0, static_cast<double>(s.status.at(now)));
-    if (s.position.late()) {
-        const auto read = static_cast<double>(s.position.at(now));
-        a.put(0x6063, 0, read);
-        a.put(0x6064, 0, a.servo().units().in_units(read));
-        a.put(0x60F4, 0, a.servo().units().way_in_units(a.servo().shaft().demand(now).position - read));
-    }
-    if (!started(k, now)) a.put(0x6041, 0, 0);  // "not ready to switch on"
-}
-
 void Macs::refresh(Instant now) {
-    follow(now);
-    note(now);
+    follow(axes_, now);
+    note(shown_, axes_, now);
     for (int k = 0; k < axes; ++k) {
         MacsAxis& a = axis(k + 1);
         a.servo().refresh(now);
-        show_late(k, now);
+        show_late(a, shown_[static_cast<std::size_t>(k)], now);
+        if (!started(k, manners_, powered_at_, now)) a.put(0x6041, 0, 0);  // "not ready to switch on"
         const auto demand = a.of(0x6062), before = a.value("PFG_COMMANDPOS");
         a.set("SYSVAR_4096", demand);
         a.set("PFG_OLDCOMMANDPOS", before);
@@ -244,22 +238,19 @@ void Macs::refresh(Instant now) {
     axis(1).set("AMP_I2TVALUE", std::max(axis(1).current().value(), axis(2).current().value()));
 }
 
-bool Macs::ticks(Instant now) const {
-    const bool follows = std::ranges::any_of(axes_, [&](const MacsAxis& a) { return a.unsettled(now); });
-    return follows || samples(now) || coupling_.ticks() || axes_[0].ticks(coupling_.leads(0)) || axes_[1].ticks(coupling_.leads(1));
-}
 void Macs::begin_ticks(Instant now) {
     tell_drives(bus_, axes_);
-    note(now);
-    const bool ticking = ticks(now);
+    note(shown_, axes_, now);
+    const bool ticking =
+        samples(axes_, manners_, now) || coupling_.ticks() || axes_[0].ticks(coupling_.leads(0)) || axes_[1].ticks(coupling_.leads(1));
     if (ticking && !ticking_) ticked_ = now;
     ticking_ = ticking;
 }
 Instant Macs::next_event(Instant now) const {
     Instant next = std::min(ticking_ ? ticked_ + one_tick : never, cycle_at_);
-    for (const Shown& s : shown_)
+    for (const ShownLate& s : shown_)
         next = std::min({next, s.status.next(now), s.position.next(now)});
-    if (!started(axes - 1, now)) next = std::min(next, powered_at_ + manners_.axis_start);
+    if (!started(axes - 1, manners_, powered_at_, now)) next = std::min(next, powered_at_ + manners_.axis_start);
     if (bus_silent_ && bus_.guards()) next = std::min(next, std::max(now, silent_since_ + guard_life));
     for (const MacsAxis& a : axes_)
         next = std::min(next, a.servo().next_event(now));
@@ -284,8 +275,12 @@ void Macs::check_position_errors(Instant now) {
 }
 
 void Macs::on_event(Instant at) {
-    follow(at);
-    if (cycle_at_ <= at) take_cycle(at);
+    follow(axes_, at);
+    if (cycle_at_ <= at) {
+        cycle_at_ = never;
+        for (const Address a : std::exchange(orders_, {}))
+            apply(a, at);
+    }
     for (MacsAxis& a : axes_) {
         if (a.servo().next_event(at) > at) continue;
         a.servo().on_event(at);

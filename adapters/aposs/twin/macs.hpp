@@ -15,6 +15,11 @@
 namespace axisgate::aposs {
 using cia402_drive::twin::Device;
 
+/// Status word and position of an axis as they are shown.
+struct ShownLate {
+    Delayed status, position;
+};
+
 class Macs final : public Device {
 public:
     Macs(const Objects& objects, canopen::Dictionary& dictionary, double travel, const Manners& manners = {});
@@ -68,20 +73,10 @@ public:
 
 private:
     void apply(Address address, Instant now);
-    void follow(Instant now);
-    void take_cycle(Instant at);
-    [[nodiscard]] bool started(int k, Instant now) const noexcept { return k == 0 || now >= powered_at_ + manners_.axis_start; }
-    void note(Instant now);
-    void show_late(int k, Instant now);
-    [[nodiscard]] bool samples(Instant now) const;
     void changed(const Key& key, Instant now);
     void save_user();
-    [[nodiscard]] bool ticks(Instant now) const;
     void check_position_errors(Instant now);
 
-    struct Shown {
-        Delayed status, position;
-    };
     static constexpr std::size_t most_orders = 64;  ///< of one cycle; further ones are lost
 
     const Objects& objects_;
@@ -101,7 +96,7 @@ private:
     Instant powered_at_{};
     std::vector<Address> orders_;  ///< writes that the application takes in its next cycle
     Instant cycle_at_ = never;
-    std::array<Shown, axes> shown_;
+    std::array<ShownLate, axes> shown_;
 };
 
 }  // namespace axisgate::aposs

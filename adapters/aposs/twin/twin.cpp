@@ -53,7 +53,7 @@ public:
         const MacsAxis& a = macs_.axis(std::clamp(channel, 1, axes));
         TwinMechanics m = a.servo().mechanics(now);
         m.position = a.place(now);
-        m.velocity = a.velocity().value_or(m.velocity);
+        m.velocity = a.machine.velocity().value_or(m.velocity);
         m.powered = m.powered || (node_.powered() && a.holds_in_error());  // controlled, although in error
         return m;
     }

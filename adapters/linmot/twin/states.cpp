@@ -260,7 +260,7 @@ bool States::released(Instant now) {
 // --- time -----------------------------------------------------------------------------------------------------------------
 Instant States::due(Instant now) const {
     Instant at = body_.monitor.due(now);
-    if (state_ == hardware_tests) at = std::min(at, since_ + test_time());
+    if (state_ == hardware_tests) at = std::min(at, since_ + body_.setup.manners.hardware_test);
     if (state_ == phase_search && !arrived()) at = std::min(at, since_ + search_time);
     if (state_ == aborting && abort_over_ != never) at = std::min(at, abort_over_);
     return at;
@@ -273,7 +273,7 @@ void States::look(Instant now) {
 }
 
 bool States::finish_test(Instant now) {
-    if (state_ == hardware_tests && now >= since_ + test_time()) {
+    if (state_ == hardware_tests && now >= since_ + body_.setup.manners.hardware_test) {
         enter(ready_to_operate, now);
         evaluate(now);
         return true;

@@ -78,9 +78,6 @@ public:
 
 private:
     static constexpr Duration search_time = std::chrono::seconds(1);
-    /// Of the hardware tests [L128-130]; exactly 300 ms by choice O-29.
-    [[nodiscard]] Duration test_time() const noexcept { return body_.setup.manners.hardware_test; }
-    [[nodiscard]] std::uint8_t homing_phase(Instant now) const;
 
     void enter(std::uint8_t state, Instant now);
     /// From one state with power to another.

@@ -7,6 +7,11 @@
 namespace axisgate::linmot::twin {
 namespace {
 void set(std::uint16_t& word, int bit, bool on) { word = static_cast<std::uint16_t>(word | (on ? 1u << bit : 0u)); }
+/// The sub state of state 9 before its end: its phases have equal shares of that time.
+std::uint8_t phase_of(int phases, Duration past, Duration whole) {
+    const double share = whole > Duration::zero() ? std::min(seconds(past) / seconds(whole), 1.0) : 1;
+    return static_cast<std::uint8_t>(1 + std::min(phases - 1, static_cast<int>(share * phases)));
+}
 }  // namespace
 
 std::uint16_t States::status_word(Instant now) const {
@@ -31,7 +36,9 @@ std::uint16_t States::status_word(Instant now) const {
 
 std::uint16_t States::state_var(Instant now) const {
     if (!running_) return 0;
-    std::uint8_t low = state_ == homing ? homing_phase(now) : sub_;
+    std::uint8_t low = sub_;
+    const int phases = body_.setup.manners.homing_phases;
+    if (state_ == homing && phases != 0 && !arrived()) low = phase_of(phases, now - since_, motion_end() - since_);
     if (in_error()) low = static_cast<std::uint8_t>(error_);
     if (state_ == operation_enabled) {
         low = static_cast<std::uint8_t>((body_.buffer.echo & 0x0F) | (body_.armed.kind != Armed::Kind::none ? 0x10 : 0) |
@@ -50,15 +57,6 @@ std::uint16_t States::warn_word(Instant now) const {
     set(w, 5, body_.setup.series == Series::e1100 && powered() && !moves(now) && standing_limit > 0 && behind > standing_limit / 2);
     set(w, 7, !body_.follower.homed());
     return w;
-}
-
-/// The sub state of state 9: its phases have equal shares of the way to the reference, and the last one continues until the end.
-std::uint8_t States::homing_phase(Instant now) const {
-    const int phases = body_.setup.manners.homing_phases;
-    if (phases == 0 || arrived()) return sub_;
-    const double whole = seconds(motion_end() - since_), past = seconds(now - since_);
-    const double share = whole > 0 ? std::min(past / whole, 1.0) : 1;
-    return static_cast<std::uint8_t>(1 + std::min(phases - 1, static_cast<int>(share * phases)));
 }
 
 double States::demand(Instant now) const { return powered() ? body_.demand.at(now).position : body_.follower.actual(now).position; }

@@ -21,7 +21,7 @@ from openapi import Description, sample, strict_json
 TOP = pathlib.Path(__file__).resolve().parents[2]
 TEXT = (TOP / "schema/openapi.yaml").read_text()
 API = Description(TEXT)
-NAMES = {"family": ["uim342"], "line": ["can0"], "drive": ["feeder", "slide"], "axis": ["feeder", "slide"],
+NAMES = {"family": ["uim342"], "specimen": ["17", "slow"], "line": ["can0"], "drive": ["feeder", "slide"], "axis": ["feeder", "slide"],
          "parameter": ["AC", "PP[5]", "node_id"], "mapping": ["m1"], "recipe": ["warm-up"], "run": ["1"], "snapshot": ["1"],
          "revision": ["1"], "user": ["anna"], "token": ["none"], "alarm": ["1"], "unit": ["2", "40"], "description": ["plain.eds"],
          "gateway": ["hall-1"], "recording": ["crash"], "capture": ["tuned"], "connection": ["enip-0"], "instance": ["300"]}

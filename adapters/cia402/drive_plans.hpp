@@ -28,7 +28,7 @@ struct AxisKnown {
     bool profile = true;  ///< it has a status word
     /// The measured values that the drive has (606Ch, 6062h, 6061h); feedback.hpp says how the others are replaced.
     bool has_velocity = true, has_demand = true, has_mode = true;
-    bool polled = false;                         ///< its PDOs cannot be set up: its values are read by SDO
+    bool polled = false;                            ///< its PDOs cannot be set up: its values are read by SDO
     std::array<bool, 3> targets{true, true, true};  ///< the drive accepts PDOs with a target position, velocity, torque
     std::int64_t homing_method = 0;
     std::array<std::int64_t, 3> rates{10'000, 50'000, 50'000};  ///< 6081h, 6083h, 6084h

@@ -143,9 +143,8 @@ void Feedback::calculate_missing(Instant now) noexcept {
     if (place_at_ != Instant{} && now < place_at_ + shortest) return;
     const std::int64_t way = saturated_difference(known.fb.position, place_);
     const bool first = place_at_ == Instant{};
-    known.fb.velocity = first || std::llabs(way) <= flicker
-                            ? 0
-                            : static_cast<std::int64_t>(static_cast<double>(way) / seconds(now - place_at_));
+    known.fb.velocity =
+        first || std::llabs(way) <= flicker ? 0 : static_cast<std::int64_t>(static_cast<double>(way) / seconds(now - place_at_));
     place_ = known.fb.position;
     place_at_ = now;
 }

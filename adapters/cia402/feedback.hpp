@@ -60,16 +60,16 @@ private:
     [[nodiscard]] Course course() const noexcept;
 
     bool status_new_ = false, motion_new_ = false, need_code_ = false;
-    bool seen_ = false;        ///< complete feedback has arrived since the start
-    bool power_lost_ = false;  ///< the drive has left operation by itself, and has had no voltage since
-    int fallen_ = 0;           ///< reports in succession of an axis that is off under a control word that enables it
-    int fresh_ = 0;            ///< status words since a new set-point that do not concern it yet
-    bool left_ = false;        ///< since the order, the drive has shown that the target is not reached
+    bool seen_ = false;                     ///< complete feedback has arrived since the start
+    bool power_lost_ = false;               ///< the drive has left operation by itself, and has had no voltage since
+    int fallen_ = 0;                        ///< reports in succession of an axis that is off under a control word that enables it
+    int fresh_ = 0;                         ///< status words since a new set-point that do not concern it yet
+    bool left_ = false;                     ///< since the order, the drive has shown that the target is not reached
     std::optional<std::int64_t> target_{};  ///< of the positioning
     std::int64_t way_ = 0;                  ///< from its begin to its target
     Instant ordered_at_{};
     Instant check_at_ = never;
-    Instant place_at_{};     ///< of the position from which the velocity is calculated
+    Instant place_at_{};  ///< of the position from which the velocity is calculated
     std::int64_t place_ = 0;
     int deaf_ = 0;  ///< SDO answers in succession without a PDO between them
 };

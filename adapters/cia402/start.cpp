@@ -220,9 +220,8 @@ void Start::identity_read(Address address, const canopen::SdoEnd& end) {
 void Axis::first_reads(std::vector<Step>& steps) const {
     for (const Address a :
          {object::statusword, object::velocity, object::demand, object::mode_shown, object::mode, object::modes, object::controlword,
-          object::homing_method,
-          object::profile_velocity, object::profile_acceleration, object::profile_deceleration, object::quick_stop_deceleration,
-          object::error_code, object::quick_stop_option, object::cycle, object::cycle_index})
+          object::homing_method, object::profile_velocity, object::profile_acceleration, object::profile_deceleration,
+          object::quick_stop_deceleration, object::error_code, object::quick_stop_option, object::cycle, object::cycle_index})
         steps.push_back({Step::Kind::read, a, {}, 0, 0, true});
 }
 

@@ -33,9 +33,9 @@ inline constexpr Address device_type{0x1000, 0}, error_register{0x1001, 0}, watc
     modes{0x6502, 0};
 }  // namespace object
 
-/// TPDO 1: status word, position, mode shown. TPDO 2: velocity, demand. Objects that a drive lacks are left out. Both are sent at the SYNCs of their node. A second axis has TPDO 3
-/// and 4. RPDO 1, 2, 3: target position, velocity, torque; they take effect at the SYNC. Control words are sent by SDO, so that each is
-/// acknowledged.
+/// TPDO 1: status word, position, mode shown. TPDO 2: velocity, demand. Objects that a drive lacks are left out. Both are sent at the SYNCs
+/// of their node. A second axis has TPDO 3 and 4. RPDO 1, 2, 3: target position, velocity, torque; they take effect at the SYNC. Control
+/// words are sent by SDO, so that each is acknowledged.
 [[nodiscard]] canopen::Pdo status_pdo(std::uint8_t node, std::size_t axis = 0, bool mode = true);
 [[nodiscard]] canopen::Pdo motion_pdo(std::uint8_t node, std::size_t axis = 0, bool velocity = true, bool demand = true);
 /// `interpolated`: position by 60C1h, for mode 7.

@@ -12,13 +12,13 @@ namespace axisgate {
 
 /// Values of the freedoms of the same names, in increments and seconds of the twin's axis.
 struct ShaftFreedoms {
-    std::int64_t follow_ms = 0;           ///< time constant of the position loop, without feed-forward; 0: the shaft is at its demand
-    std::int64_t damping_percent = 100;   ///< below 100 it overshoots and rings before it settles
-    std::int64_t most_acceleration = 0;   ///< increments/s^2 that the motor's force gives the load; 0: no limit
-    std::int64_t friction_increments = 0; ///< it stays where it is while its demand is not further away than this
-    std::int64_t backlash_increments = 0; ///< play between the motor and the encoder at the load
-    std::int64_t noise_increments = 0;    ///< the encoder shows up to this much more or less, changing each millisecond
-    std::int64_t drift_increments = 0;    ///< without power it moves this far within about a second, and stays there
+    std::int64_t follow_ms = 0;            ///< time constant of the position loop, without feed-forward; 0: the shaft is at its demand
+    std::int64_t damping_percent = 100;    ///< below 100 it overshoots and rings before it settles
+    std::int64_t most_acceleration = 0;    ///< increments/s^2 that the motor's force gives the load; 0: no limit
+    std::int64_t friction_increments = 0;  ///< it stays where it is while its demand is not further away than this
+    std::int64_t backlash_increments = 0;  ///< play between the motor and the encoder at the load
+    std::int64_t noise_increments = 0;     ///< the encoder shows up to this much more or less, changing each millisecond
+    std::int64_t drift_increments = 0;     ///< without power it moves this far within about a second, and stays there
 
     [[nodiscard]] bool none() const noexcept {
         return follow_ms == 0 && most_acceleration == 0 && friction_increments == 0 && backlash_increments == 0 && noise_increments == 0 &&
@@ -30,7 +30,8 @@ struct ShaftFreedoms {
 [[nodiscard]] ShaftFreedoms shaft_freedoms(const FreedomValues& values);
 
 /// Advances on a fixed grid of one millisecond, so that its answers do not depend on when they are asked for. Of a gap of more than
-/// `longest_gap` only the last part is calculated: at its beginning the shaft is at its demand, or where it stood if the demand is the same.
+/// `longest_gap` only the last part is calculated: at its beginning the shaft is at its demand, or where it stood if the demand is the
+/// same.
 class Shaft {
 public:
     static constexpr Duration step = std::chrono::milliseconds(1);
@@ -68,8 +69,8 @@ public:
         off_since_ = never;
         if (now > last_) last_ = time_zero + (now - time_zero) / step * step;
     }
-    /// While the drive has no power: the shaft drifts from where it was switched off, whatever the demand is. Call `advance` for the instant
-    /// of switching off before.
+    /// While the drive has no power: the shaft drifts from where it was switched off, whatever the demand is. Call `advance` for the
+    /// instant of switching off before.
     void advance_without_power(Instant now);
 
     /// Position and velocity of the motor as of the last advance, increments and increments/s.

@@ -43,8 +43,7 @@ const Freedom* find(const Catalogue& page, std::string_view name) {
 }
 
 std::string permitted(const Freedom& f) {
-    if (f.values.empty())
-        return fmt::format("a whole number from {} to {}{}{}", f.min, f.max, f.unit.empty() ? "" : " ", f.unit);
+    if (f.values.empty()) return fmt::format("a whole number from {} to {}{}{}", f.min, f.max, f.unit.empty() ? "" : " ", f.unit);
     std::string list;
     for (const auto& [n, meaning] : f.values)
         list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", n, meaning);

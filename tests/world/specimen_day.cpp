@@ -69,11 +69,14 @@ void SpecimenDay::fit(Site& wanted) const {
     const auto of = [&](std::string_view name) { return freedom(values, name); };
     constexpr std::int64_t longest_answer = 64;  // bytes
     const std::int64_t chunks = of("chunk_bytes") == 0 ? 0 : longest_answer / of("chunk_bytes");
-    const std::int64_t late = of("reply_ms") + of("reply_spread_ms") + of("late_ms") + of("flash_silence_ms") + chunks * of("chunk_pause_ms");
+    const std::int64_t late =
+        of("reply_ms") + of("reply_spread_ms") + of("late_ms") + of("flash_silence_ms") + chunks * of("chunk_pause_ms");
     if (late > 50) wanted.lines.at(0).timing.reply_timeout = std::max<Duration>(600ms, std::chrono::milliseconds(late + 100));
 }
 
-bool SpecimenDay::found() { return world->run_until_true([&] { return online(); }, 60s + 4 * slowness()); }
+bool SpecimenDay::found() {
+    return world->run_until_true([&] { return online(); }, 60s + 4 * slowness());
+}
 
 /// Returns true if the axis came up.
 bool SpecimenDay::served() {

@@ -197,10 +197,9 @@ public:
     }
     /// Embedded drives on the subject's wire.
     Site twins(const Subject& s, std::size_t drives = 1, int channels = 1) {
-        Site site = s.wire == Wire::network ? make_site(s, s.cable(), drives, "twin", channels)
-                    : s.wire == Wire::serial && s.family->uses_can
-                        ? make_site(s, "twin", drives, "auto", channels, {{"kind", "bytes"}})
-                        : make_site(s, "twin", drives, "auto", channels);
+        Site site = s.wire == Wire::network                        ? make_site(s, s.cable(), drives, "twin", channels)
+                    : s.wire == Wire::serial && s.family->uses_can ? make_site(s, "twin", drives, "auto", channels, {{"kind", "bytes"}})
+                                                                   : make_site(s, "twin", drives, "auto", channels);
         for (DriveSpec& d : site.drives) {
             if (!s.specimen.empty()) d.options["specimen"] = s.specimen;
         }

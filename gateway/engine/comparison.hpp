@@ -51,11 +51,11 @@ struct Difference {
         early     ///< the same answer, before the specimen's shortest reply time
     };
     Kind kind = Kind::value;
-    Instant at{};                           ///< since the first frame: of the recorded message; missing: of the request
-    std::string request;                    ///< in words; empty: the drive or the twin sent the message by itself
-    std::string recorded, twin;             ///< in words; empty if this side has no message
-    Duration reply{}, least{}, most{};      ///< late and early: the recorded reply time, and the specimen's range
-    std::vector<std::string> explained_by;  ///< specimens that do not have this difference (the first five); empty: none of those tried
+    Instant at{};                             ///< since the first frame: of the recorded message; missing: of the request
+    std::string request{};                    ///< in words; empty: the drive or the twin sent the message by itself
+    std::string recorded{}, twin{};           ///< in words; empty if this side has no message
+    Duration reply{}, least{}, most{};        ///< late and early: the recorded reply time, and the specimen's range
+    std::vector<std::string> explained_by{};  ///< specimens that do not have this difference (the first five); empty: none of those tried
 };
 [[nodiscard]] std::string_view name_of(Difference::Kind kind) noexcept;
 

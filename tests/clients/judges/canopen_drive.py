@@ -301,7 +301,7 @@ node.boot()
 print("ready", flush=True)
 last = time.monotonic()
 while True:
-    message = bus.recv(0.002)
+    message = bus.recv(0.005)
     moment = time.monotonic()
     drive.step(moment, moment - last)
     last = moment

@@ -108,7 +108,7 @@ bool Drive::quick() const noexcept {
 }
 
 bool Drive::streams() const noexcept {
-    return std::ranges::any_of(axes, [](const auto& a) { return a->stream.on(); });
+    return std::ranges::any_of(axes, [](const auto& a) { return a->stream.on() || a->needs_even_syncs(); });
 }
 
 void Drive::forget(Reason reason, std::string_view why, Turn& t) {

@@ -50,6 +50,7 @@ public:
         return listeners() > 0 || (node.presence.is(Presence::Phase::starting) && start.at_end());
     }
     [[nodiscard]] bool quick() const noexcept;
+    /// An axis follows set-points, or rests in a cyclic mode: the SYNC keeps its period, because the drive may monitor it.
     [[nodiscard]] bool streams() const noexcept;
     /// It monitors the gateway's heartbeat, and answers.
     [[nodiscard]] bool watches() const noexcept {

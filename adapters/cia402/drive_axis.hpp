@@ -70,6 +70,10 @@ public:
     [[nodiscard]] std::size_t place() const noexcept { return place_; }  ///< among the axes of the node, from 0
     /// The axis has the objects of the profile, so that its PDOs are expected.
     [[nodiscard]] bool listens() const noexcept { return node.presence.is(Presence::Phase::ready) && known.profile; }
+    /// It has power in a cyclic mode: the drive may monitor the SYNC, also between two streams.
+    [[nodiscard]] bool needs_even_syncs() const noexcept {
+        return listens() && known.fb.power == AxisFeedback::Power::on && known.mode >= 7 && known.mode <= 10;
+    }
     [[nodiscard]] bool quick() const noexcept { return listens() && (known.fb.moving || stream.on() || job_ || !stops_.empty()); }
 
     Node& node;

@@ -74,7 +74,9 @@ std::optional<Ask> Axis::next(Turn& t) {
     if (job_ && t.now >= job_->wait_until) {
         const Step& s = job_->steps[job_->at];
         const bool once = std::holds_alternative<Native>(job_->command.body) && s.kind == Step::Kind::write;
-        return Ask{Ask::Why::step, here(*job_), job_->command.ticket, once || job_->stream ? 0 : retries};
+        Ask ask{Ask::Why::step, here(*job_), job_->command.ticket, once || job_->stream ? 0 : retries};
+        ask.once = once || job_->stream;
+        return ask;
     }
     if (known.polled && t.now >= polled.due() && !node.stopped) return Ask{Ask::Why::poll, polled.next(), no_ticket, 0};
     if (t.now >= feedback.check_at() && !node.stopped)
@@ -175,7 +177,7 @@ void Axis::take_back(CommandBody body, void (*planned)(const AxisKnown&, Job&)) 
 }
 
 void Axis::node_stopped(Turn& t) {
-    constexpr std::string_view why = "somebody else has stopped the node (NMT stop)";
+    constexpr std::string_view why = "somebody else has stopped the node (NMT stop): nmt_start starts it again";
     turns.forget();
     if (stream.on()) t.out.stream_ends.push_back({id_, Reason::interrupted, std::string(why)});
     stream.end();

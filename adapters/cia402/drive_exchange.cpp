@@ -11,6 +11,10 @@ void emit(const std::vector<Frame>& frames, Priority priority, Ticket order, Tur
 /// The time within which a node has sent its answer if it answers at once: in the worst case after the PDOs of all nodes that follow a
 /// SYNC.
 Duration usual_time(const Line& line) { return std::chrono::milliseconds(50) + 64 * wire_time(140, line.bit_rate); }
+/// A busy node refuses a request by the codes of a node that never accepts it in its state (CiA 301, 7.2.4.3.17): only further attempts
+/// distinguish them.
+constexpr int most_refusals = 6;
+constexpr Duration between_attempts = std::chrono::milliseconds(10);
 }  // namespace
 
 Exchanges::Exchanges(Drive& drive, const Node& node) : Part(drive), sdo_(node.number) {}
@@ -48,6 +52,7 @@ void Exchanges::send(Ask ask, Turn& t) {
     ask_ = std::move(ask);
     node.line.turns.began(drive_.slot(), ask_.why == Ask::Why::probe);
     repeated_ = false;
+    refusals_ = 0;
     cut_at_ = never;
     transfer(t);
 }
@@ -86,6 +91,13 @@ std::optional<canopen::SdoEnd> Exchanges::on_frame(const Frame& f, Turn& t) {
         if (!active()) node.presence.received(t.now);
         return std::nullopt;
     }
+    if (is_busy(*end) && ++refusals_ < most_refusals && cut_at_ == never) {
+        (void)times_.answered(end->address, true, t.now);
+        node.presence.answered();
+        repeat_at_ = never;
+        busy_until_ = t.now + between_attempts;
+        return std::nullopt;
+    }
     const bool one_frame = end->data.size() <= 4 && ask_.step.bytes.size() <= 4;
     (void)times_.answered(end->address, one_frame, t.now);
     this->end();
@@ -97,6 +109,11 @@ std::optional<canopen::SdoEnd> Exchanges::on_frame(const Frame& f, Turn& t) {
     return end;
 }
 
+bool Exchanges::is_busy(const canopen::SdoEnd& end) const noexcept {
+    const bool may_be = end.abort == canopen::Abort::transfer || end.abort == canopen::Abort::device_state;
+    return may_be && end.by_node && !ask_.once;
+}
+
 /// A node answers requests in order: while it answers older ones, the wait for the newest is extended.
 void Exchanges::late_or_second(Address address, Turn& t) {
     if (!times_.answered(address, true, t.now)) return drive_.stray();
@@ -105,7 +122,7 @@ void Exchanges::late_or_second(Address address, Turn& t) {
 }
 
 void Exchanges::end() noexcept {
-    repeat_at_ = cut_at_ = never;
+    repeat_at_ = cut_at_ = busy_until_ = never;
     drive_.node.line.turns.ended(drive_.slot());
 }
 
@@ -113,10 +130,15 @@ Exchanges::Late Exchanges::on_deadline(Turn& t) {
     if (!active() || t.now < deadline()) return Late::no;
     AdapterCounters& counters = drive_.node.line.counters;
     if (t.now >= cut_at_) {
+        if (!waits()) late_.add(ask_.step.address);
         sdo_.abandon();
         end();
-        late_.add(ask_.step.address);
         return Late::cut;
+    }
+    if (waits()) {
+        busy_until_ = never;
+        transfer(t);
+        return Late::no;
     }
     if (ask_.left > 0) return again(t);
     std::vector<Frame> unsent;
@@ -150,7 +172,7 @@ Exchanges::Late Exchanges::again(Turn& t) {
 
 void Exchanges::drop() {
     times_.forget();
-    repeat_at_ = cut_at_ = never;
+    repeat_at_ = cut_at_ = busy_until_ = never;
     if (!active()) return;
     std::vector<Frame> unsent;
     (void)sdo_.stop(canopen::Abort::timeout, unsent);
@@ -160,14 +182,14 @@ void Exchanges::no_repeats(Instant now) noexcept {
     if (!active() || ask_.why == Ask::Why::stop) return;
     ask_.left = 0;
     repeat_at_ = never;
-    cut_at_ = std::max(now, sent_ + repeat_after());
+    cut_at_ = waits() ? now : std::max(now, sent_ + repeat_after());
 }
 
 bool Exchanges::give_up() noexcept {
     if (!active()) return false;
+    if (!waits()) late_.add(ask_.step.address);
     sdo_.abandon();
     end();
-    late_.add(ask_.step.address);
     return true;
 }
 

@@ -100,6 +100,7 @@ struct Ask {
     Ticket ticket = no_ticket;
     int left = 0;          ///< remaining repetitions
     std::size_t axis = 0;  ///< place of the requesting axis among the axes of the node
+    bool once = false;     ///< a refusal is not tried again, although the node may only be busy
 };
 
 }  // namespace axisgate::cia402_drive

@@ -20,6 +20,7 @@ public:
         const bool read = command == 2, write = command == 1;
         if (f.id != 0x605 || (!read && !write)) return twin_->on_frame(f, now, out);
         const auto index = static_cast<std::uint16_t>(d[1] | d[2] << 8);
+        if (busy_in > 0 && ++requests_ % busy_in != 0) return refuse(f, busy_abort, out);
         if (missing_.contains(index)) return refuse(f, 0x06020000, out);
         if (write && pdo_abort_ != 0 && index >= 0x1400 && index < 0x1C00) return refuse(f, pdo_abort_, out);
         const bool mapping = write && index >= 0x1600 && index < 0x1C00 && d[3] > 0;
@@ -37,7 +38,12 @@ public:
     }
     [[nodiscard]] TwinMechanics mechanics(int channel, Instant now) const override { return twin_->mechanics(channel, now); }
 
+    /// Of so many SDO requests the twin refuses all but the last one, as a busy drive does. 0: none.
+    int busy_in = 0;
+    std::uint32_t busy_abort = 0x08000022;
+
 private:
+    int requests_ = 0;
     static void refuse(const Frame& request, std::uint32_t abort, Out& out) {
         std::array<std::uint8_t, 8> bytes{};
         std::ranges::copy(request.data().first(4), bytes.begin());
@@ -53,11 +59,15 @@ private:
 
 struct Poorer : LineBench {
     int pdos = 0;
-    explicit Poorer(std::set<std::uint16_t> missing, std::uint32_t pdo_abort = 0) : LineBench(page(), 1) {
+    PoorerTwin* drive = nullptr;  ///< owned by the bus
+    explicit Poorer(std::set<std::uint16_t> missing, std::uint32_t pdo_abort = 0, int busy_in = 0) : LineBench(page(), 1) {
         TwinSetup t;
         t.address = "5";
         t.kind = LineKind::can;
-        bus->add(DriveId{0}, std::make_unique<PoorerTwin>(twin::make_twin(t), std::move(missing), pdo_abort), {}, now);
+        auto made = std::make_unique<PoorerTwin>(twin::make_twin(t), std::move(missing), pdo_abort);
+        drive = made.get();
+        drive->busy_in = busy_in;
+        bus->add(DriveId{0}, std::move(made), {}, now);
         crossed = [this](const Frame& f) { pdos += f.id == 0x185 || f.id == 0x285; };
         open();
         run(2s);
@@ -183,6 +193,30 @@ TEST(Cia402Poorer, AnEnableBehindAQuickStopThatTheDriveHasEndedBeginsAnew) {
         ASSERT_TRUE(good(b.ask(QuickStop{})));
         b.run(std::chrono::milliseconds(after_ms));
     }
+}
+
+TEST(Cia402Poorer, ABusyDriveIsAskedAgain) {
+    for (const std::uint32_t abort : {0x08000020u, 0x08000022u}) {
+        SCOPED_TRACE(abort);
+        Poorer b({});
+        PoorerTwin& drive = *b.drive;
+        drive.busy_abort = abort;
+        drive.busy_in = 4;
+        b.moves_and_stops();
+        drive.busy_in = 1'000'000;
+        const Instant before = b.now;
+        const Result r = b.ask(Enable{});
+        EXPECT_EQ(r.outcome, Outcome::refused) << "a drive that is busy for long";
+        EXPECT_EQ(r.reason, Reason::drive_refused);
+        EXPECT_LT(b.now - before, 1s);
+    }
+}
+
+TEST(Cia402Poorer, ABusyDriveIsFoundWithItsPdos) {
+    Poorer b({}, 0, 3);
+    b.moves_and_stops();
+    EXPECT_GT(b.pdos, 100);
+    EXPECT_EQ(b.reported("drive_lacks"), 0) << b.lacks();
 }
 
 TEST(Cia402Poorer, AWholeDriveLacksNothing) {

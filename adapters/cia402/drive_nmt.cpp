@@ -22,7 +22,8 @@ void NmtWatch::stopped(Turn& t) {
     if (!std::exchange(node.stopped, true)) {
         // The exchange of a stop starts the node itself.
         if (drive_.exchanges.ask().why != Ask::Why::stop && drive_.exchanges.give_up())
-            node.tickets.failed(drive_.exchanges.ask().ticket, Reason::interrupted, "somebody else has stopped the node (NMT stop): nmt_start starts it again", t.out);
+            node.tickets.failed(drive_.exchanges.ask().ticket, Reason::interrupted,
+                                "somebody else has stopped the node (NMT stop): nmt_start starts it again", t.out);
         for (const auto& a : drive_.axes)
             a->node_stopped(t);
         const std::string text = fmt::format(

@@ -1,8 +1,7 @@
 // Exchanges controls the one SDO transfer that is in progress with a node: its repetitions, its time-out, and late answers. A request is
-// repeated after the time in which this node usually answers, and abandoned `reply_timeout` after that. A request that the node refuses because of its present state is sent again a few times, because a
-// busy node refuses so as well. If the answer to an abandoned
-// request may still arrive, a request for another object is sent first, so that a late answer is never taken for the answer to a new
-// request.
+// repeated after the time in which this node usually answers, and abandoned `reply_timeout` after that. A request that the node refuses
+// because of its present state is sent again a few times, because a busy node refuses so as well. If the answer to an abandoned request may
+// still arrive, a request for another object is sent first, so that a late answer is never taken for the answer to a new request.
 #pragma once
 
 #include <optional>

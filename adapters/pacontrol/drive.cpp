@@ -11,7 +11,14 @@
 namespace axisgate::pacontrol {
 namespace {
 constexpr std::uint8_t commands_per_poll = 4;
+constexpr Duration busy_limit = std::chrono::seconds(1);  // of commands that are refused after a change of the operating mode
+
+bool changes_mode(const Sent& sent) {
+    const std::uint16_t c = sent.request.code;
+    return !sent.eot &&
+           (c == code::stop || c == code::start_auto || c == code::start_online || c == code::abort_auto || c == code::abort_online);
 }
+}  // namespace
 
 void Drive::set_axes(const DriveSetup& setup, Turn& t) {
     setup_ = setup;
@@ -79,7 +86,7 @@ void Drive::pump(Turn& t) {
 
 Instant Drive::deadline(Instant now) const noexcept {
     if (presence.is(Phase::down)) return never;
-    Instant d = std::min(stops.deadline(), jobs.deadline());
+    Instant d = std::min(stops.deadline(), jobs.deadline(now));
     if (!port.free(now)) return std::min(d, port.deadline());
     if (!ready()) return std::min(d, presence.deadline());
     if (processing.active) return std::min(d, processing.next_poll);
@@ -144,6 +151,7 @@ void Drive::answered(const Sent& sent, const Reply& reply, Turn& t) {
     if (!ready()) found(t);
     feedback.learn(reply, t);
     demands.follow(sent, reply, t.now);
+    if (reply.quit == 0 && changes_mode(sent)) busy_until = t.now + busy_limit;
     switch (sent.purpose) {
         case Purpose::probe:
         case Purpose::barrier:
@@ -188,10 +196,13 @@ void Drive::not_read(const Sent& sent, const Reply& reply, Turn& t) {
 void Drive::silent(const Sent& sent, Turn& t) {
     if (!sent.eot && (sent.purpose == Purpose::job || sent.purpose == Purpose::stop)) demands.not_acknowledged(sent.request);
     if (sent.purpose == Purpose::renew) axes[sent.axis].renewal.soon(t.now);
-    if (sent.purpose == Purpose::processing) processing.next_poll = t.now;
+    if (sent.purpose == Purpose::processing) {
+        processing.next_poll = t.now;
+        processing.by_status = sent.eot;  // a control need not answer a poll once the end is told, nor a command before it
+    }
     if (sent.purpose == Purpose::job) jobs.silent(axes[sent.axis], t);
     if (sent.purpose == Purpose::stop) stops.silent(t);
-    count_silence(t);
+    if (!sent.eot) count_silence(t);  // a control need not answer a poll while nothing is processed
 }
 
 void Drive::in_step() {

@@ -51,6 +51,10 @@ struct Job {
     bool unknown = false;           ///< no answer to what cannot be repeated: reads the position back and ends as failed
     std::uint8_t tries = 0;         ///< of the present request
     Instant limit = never;          ///< of waiting
+    Instant not_before{};           ///< the present request is sent then at the earliest
+    Instant shown_at{};             ///< a reference run that is watched has shown itself for the last time
+    std::int64_t place = 0;         ///< and where the axis was then, increments
+    int flag = -1;                  ///< its reference flag; -1: not told
     std::string text;               ///< for the result
     Point point;
     std::vector<std::size_t> places;  ///< of several axes
@@ -65,9 +69,11 @@ struct Motion {
     enum class Kind : std::uint8_t { none, position, velocity, manual, reference };
     Kind kind = Kind::none;
     std::int64_t target = 0;
-    bool conditional = false;  ///< 0AA3 was set for it: an end short of the target is its right
-    bool final_due = false;    ///< 1911 says it stands: status and position are read before its end is published
-    std::uint64_t begun = 0;   ///< exchange count at its acknowledgement: answers to older questions do not end it
+    bool conditional = false;        ///< 0AA3 was set for it: an end short of the target is its right
+    bool final_due = false;          ///< 1911 says it stands: status and position are read before its end is published
+    std::uint64_t begun = 0;         ///< exchange count at its acknowledgement: answers to older questions do not end it
+    Instant begun_at{}, stood_at{};  ///< acknowledged; 1911 has shown that it stands
+    bool seen_running = false;       ///< the control has shown that it moves
     [[nodiscard]] bool active() const noexcept { return kind != Kind::none; }
 };
 
@@ -127,6 +133,9 @@ struct Axis {
     bool missing = false;                ///< the control answers 20h: it has no such axis
     bool on = false;                     ///< 0A97 acknowledged since ONLINE began
     bool off_ordered = false;            ///< 0A98 acknowledged since it was enabled last
+    bool no_switch = false;              ///< the control cannot switch it on or off (0A97, 0A98: 13h or 15h)
+    Instant switching_until{};           ///< 0A97 was acknowledged: until then 37h may only mean that it is not on yet
+    Instant stopping_until{};            ///< a stop was acknowledged: until then 2Ah may only mean that it still brakes
     int status = -1;                     ///< 1910: 0 in position, 1 moving, 2 stopped, 4 malfunction, 8 measuring; -1 not read yet
     bool malfunction_published = false;  ///< asking for status 4 anew does not make it news
     std::uint16_t trouble = 0;  ///< PA-CONTROL error of the fault that lasts: status 4 may be read for a while after the number has gone

@@ -62,12 +62,14 @@ void Control::forget() {
     processing = {};
     mode = -1;
     error = 0;
-    started_by_us = leaving = give_back_due = system_flags_missing = false;
+    started_by_us = leaving = give_back_due = system_flags_missing = stop_axis_missing = false;
+    busy_until = {};
     for (Axis& a : axes) {
         a.fb = {};
         a.fb.position = a.fb.position_demand = a.counter;
         a.demand = {};
-        a.position_known = a.missing = a.on = a.running = a.prepared = a.condition_set = a.extended_missing = false;
+        a.position_known = a.missing = a.on = a.running = a.prepared = a.condition_set = a.extended_missing = a.no_switch = false;
+        a.switching_until = a.stopping_until = {};
         a.status = a.limits = -1;
         a.counter_at = a.velocity_at = a.running_at = a.status_at = {};
         a.motion = {};
@@ -78,7 +80,7 @@ void Control::forget() {
 }
 
 void Control::begin_processing(std::size_t axis, std::uint16_t code, bool foreign, Instant now) {
-    processing = {true, foreign, false, axis, axis, code, now, now + options.processing_limit};
+    processing = {true, foreign, false, false, axis, axis, code, now, now + options.processing_limit};
 }
 
 void Control::sample(const Axis& a, Point point, const Value& value, Turn& t) const {

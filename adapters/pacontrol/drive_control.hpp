@@ -37,10 +37,11 @@ struct DriveOptions {
 /// A command whose end of processing is outstanding: until then the control takes polls and the stops that pass, and nothing else.
 struct Processing {
     bool active = false;
-    bool foreign = false;   ///< no job waits for it
-    bool hidden = false;    ///< a stop of another axis took the poll's answer: the axis' status tells
-    std::size_t axis = 0;   ///< that moves
-    std::size_t owner = 0;  ///< whose job it is: another one when one axis has the others referenced
+    bool foreign = false;    ///< no job waits for it
+    bool hidden = false;     ///< a stop of another axis took the poll's answer: the axis' status tells
+    bool by_status = false;  ///< the last poll was not answered: the axis' status is asked next
+    std::size_t axis = 0;    ///< that moves
+    std::size_t owner = 0;   ///< whose job it is: another one when one axis has the others referenced
     std::uint16_t code = 0;
     Instant next_poll{};
     Instant limit = never;
@@ -63,7 +64,9 @@ struct Control : drive::DriveBase {
     bool leaving = false;        ///< this gateway has ordered it to leave
     bool give_back_due = false;
     bool system_flags_missing = false;
-    Instant parameters_at{};  ///< not before: the control has just refused to tell them
+    bool stop_axis_missing = false;  ///< 0A9A is unknown (13h): 0A93 stops one axis
+    Instant busy_until{};            ///< the operating mode was changed: until then 15h may only mean "not yet"
+    Instant parameters_at{};         ///< not before: the control has just refused to tell them
     Processing processing;
     std::uint64_t exchanges = 0;
     bool wake = false;  ///< something changed that a waiting job may want to see

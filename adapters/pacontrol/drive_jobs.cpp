@@ -14,6 +14,7 @@ namespace axisgate::pacontrol {
 namespace {
 constexpr std::uint8_t frame_tries = 4;  // of one request that the control could not read (10h, 11h, 12h)
 constexpr Duration processing_period = std::chrono::milliseconds(20);
+constexpr Duration again_pause = std::chrono::milliseconds(20);
 constexpr Duration mode_pause = std::chrono::seconds(2);  // until the status tells what became of a change of mode
 
 bool moves_and_tells(std::uint16_t c) { return c == code::move_absolute_wait || c == code::move_relative_wait; }
@@ -25,6 +26,7 @@ void Jobs::ask(Axis& a, Request request) {
     a.job.request = std::move(request);
     a.job.want = Job::Want::send;
     a.job.tries = 0;
+    a.job.not_before = {};
 }
 
 void Jobs::ask(Axis& a, std::uint16_t what, std::string data) {
@@ -35,6 +37,12 @@ void Jobs::ask(Axis& a, std::uint16_t what, std::string data) {
 void Jobs::ask_poll(Axis& a) {
     a.job.poll = true;
     a.job.want = Job::Want::send;
+}
+
+void Jobs::ask_later(Axis& a, Instant at) {
+    a.job.want = Job::Want::send;
+    a.job.tries = 0;
+    a.job.not_before = at;
 }
 
 void Jobs::wait(Axis& a, Instant limit) {
@@ -103,7 +111,7 @@ void Jobs::send_of(Axis& a, Turn& t) {
 bool Jobs::send(Turn& t) {
     for (std::size_t n = 0; n < drive_.axes.size(); ++n) {
         Axis& a = drive_.axes[std::exchange(next_, (next_ + 1) % drive_.axes.size())];
-        if (a.job.want != Job::Want::send || a.job.in_flight) continue;
+        if (a.job.want != Job::Want::send || a.job.in_flight || a.job.not_before > t.now) continue;
         send_of(a, t);
         return true;
     }
@@ -128,6 +136,7 @@ void Jobs::answered(Axis& a, const Reply& reply, Turn& t) {
         return;
     }
     const bool on = reply.quit == 0 && !reply.end;
+    if (!orphan && comes_again(a, reply, t.now)) return;
     if (orphan) {
         if (on) drive_.begin_processing(a.place(), 0, true, t.now);
         return;
@@ -142,6 +151,23 @@ void Jobs::answered(Axis& a, const Reply& reply, Turn& t) {
                     fmt::format("{}; the position read back is {}", j.text, reply.quit == 0 ? reply.data : "not known"), t);
     }
     on ? goes_on(a, reply, t) : run(a, &reply, t);
+}
+
+/// Refused only because the control is not ready for it yet: after a change of its mode (15h), before an axis is on (37h), while an axis
+/// brakes (2Ah). The request is repeated for as long as that may last, which the manual does not say.
+bool Jobs::comes_again(Axis& a, const Reply& reply, Instant now) {
+    const Job& j = a.job;
+    if (j.kind == Job::Kind::native || j.poll || !j.raw.empty()) return false;
+    const CommandInfo* c = command_info(j.request.code);
+    const std::size_t place = j.request.parameter - 1;
+    const Axis& x = c && c->parameter == Takes::axis && place < drive_.axes.size() ? drive_.axes[place] : a;
+    const Instant until = reply.quit == quit::not_executable    ? drive_.busy_until
+                          : reply.quit == quit::not_switched_on ? x.switching_until
+                          : reply.quit == quit::axis_moves      ? x.stopping_until
+                                                                : Instant{};
+    if (now >= until) return false;
+    ask_later(a, now + again_pause);
+    return true;
 }
 
 void Jobs::goes_on(Axis& a, const Reply& reply, Turn& t) {
@@ -200,15 +226,17 @@ void Jobs::send_processing_poll(Turn& t) {
     Processing& p = drive_.processing;
     if (p.next_poll > t.now) return;
     p.next_poll = t.now + processing_period;
-    drive_.port.send({Purpose::processing, p.axis, request_for(code::status_axis, static_cast<std::uint32_t>(p.axis) + 1), !p.hidden},
-                     Priority::command, t);
+    drive_.port.send(
+        {Purpose::processing, p.axis, request_for(code::status_axis, static_cast<std::uint32_t>(p.axis) + 1), !p.hidden && !p.by_status},
+        Priority::command, t);
 }
 
 void Jobs::processing_answered(const Sent& sent, const Reply& reply, Turn& t) {
     if (!drive_.processing.active) return;
     Axis& a = drive_.axes[sent.axis];
-    if (!sent.eot) {                  // hidden: the status of the axis
-        if (reply.quit != 0) return;  // still barred
+    if (!sent.eot) {  // the status of the axis
+        drive_.processing.by_status = false;
+        if (reply.quit != 0 || !reply.end) return;  // still barred, or a late answer to a poll
         drive_.feedback.learn_status(a, static_cast<int>(number_of(reply).value_or(-1)), t);
         if (a.status != 1) processing_over(reply, t);
         return;
@@ -255,10 +283,11 @@ void Jobs::on_deadline(Turn& t) {
     if (drive_.processing.active && drive_.processing.limit <= t.now) processing_late(t);
 }
 
-Instant Jobs::deadline() const noexcept {
+Instant Jobs::deadline(Instant now) const noexcept {
     Instant d = drive_.processing.active ? drive_.processing.limit : never;
     for (const Axis& a : drive_.axes) {
         if (a.job.waits()) d = std::min(d, a.job.limit);
+        if (a.job.active() && a.job.want == Job::Want::send && a.job.not_before > now) d = std::min(d, a.job.not_before);
     }
     return d;
 }

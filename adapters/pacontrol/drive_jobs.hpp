@@ -16,6 +16,8 @@ public:
     /// Of the control as a whole, or of this axis, as the code takes it.
     void ask(Axis& a, std::uint16_t code, std::string data = "0");
     void ask_poll(Axis& a);
+    /// The same request again, or the one asked just now, not before `at`.
+    void ask_later(Axis& a, Instant at);
     void wait(Axis& a, Instant limit);
     void over(Axis& a, Outcome outcome, Reason reason, std::string text, Turn& t, std::int32_t code = 0, Value value = {},
               std::vector<std::uint8_t> bytes = {});
@@ -41,10 +43,11 @@ public:
     void not_read(Axis& a, const Reply& reply, Turn& t);
     void silent(Axis& a, Turn& t);
     void on_deadline(Turn& t);
-    [[nodiscard]] Instant deadline() const noexcept;
+    [[nodiscard]] Instant deadline(Instant now) const noexcept;
 
 private:
     void send_of(Axis& a, Turn& t);
+    [[nodiscard]] bool comes_again(Axis& a, const Reply& reply, Instant now);
     void goes_on(Axis& a, const Reply& reply, Turn& t);
     void processing_over(const Reply& reply, Turn& t);
     void processing_late(Turn& t);

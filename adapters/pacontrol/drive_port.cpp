@@ -11,6 +11,7 @@ namespace axisgate::pacontrol {
 namespace {
 constexpr std::size_t reply_bytes = 48;  // of the longest acknowledgement but rare ones
 constexpr std::uint8_t misfit_limit = 2;
+constexpr std::uint8_t zero_checks_limit = 4;  // in a row, then the control has stopped computing the check
 constexpr Duration protocol_notice_period = std::chrono::seconds(10);
 
 bool could_not_read(std::uint16_t q) { return q == quit::check_wrong || q == quit::frame_order || q == quit::frame_begin; }
@@ -76,7 +77,7 @@ void Port::on_text(std::string_view text, std::string_view digits, Turn& t) {
     } else if (drive_.bus.strict && *form == CheckForm::text) {
         fault = fmt::format("check {} leaves the ETX out, {} would be right (strict = off takes both): {}", digits,
                             check_of(text, CheckForm::with_etx), text);
-    } else if (*form == CheckForm::zero && reply_form_) {
+    } else if (*form == CheckForm::zero && reply_form_ && ++zero_checks_ < zero_checks_limit) {
         fault = fmt::format("check 0 from a control that computes it: {}", text);
     } else {
         reply = reply_of(text, fault);
@@ -89,7 +90,13 @@ void Port::on_text(std::string_view text, std::string_view digits, Turn& t) {
         ++drive_.bus.counters.timeouts;
         return silent(t);
     }
-    if (*form != CheckForm::zero) reply_form_ = drive_.bus.strict ? CheckForm::with_etx : *form;
+    zero_checks_ = 0;
+    // A sum that is 0 by itself does not show which form the control sends, nor that it computes one.
+    if (*form == CheckForm::zero) {
+        reply_form_.reset();
+    } else if (check_of(text, *form) != 0) {
+        reply_form_ = drive_.bus.strict ? CheckForm::with_etx : *form;
+    }
     raw_reply_ = framed(text, *form);
     on_reply(*reply, t);
 }
@@ -168,6 +175,7 @@ void Port::on_deadline(Turn& t) {
 void Port::silent(Turn& t) {
     const Sent sent = exchange_.request();
     out_of_step_ = true;
+    look_due_ = false;  // a look that is not answered: the barrier is sent again
     if (sent.purpose == Purpose::barrier && answered_in_barrier_) {
         regain_step();  // answers came, then silence for a whole time-out: nothing is on its way any more
         drive_.presence.answered();

@@ -79,7 +79,8 @@ private:
     bool form_proved_ = false;
     std::uint8_t check_refusals_ = 0;
     std::array<std::uint8_t, 66> misfits_{};  ///< by command: answers in a row whose type was not the table's
-    std::optional<CheckForm> reply_form_;     ///< what acknowledgements carry, once seen
+    std::optional<CheckForm> reply_form_;     ///< what acknowledgements carry, once a sum other than 0 has shown it
+    std::uint8_t zero_checks_ = 0;            ///< acknowledgements in a row with 0 in place of that sum
     Instant next_protocol_notice_{};
     std::vector<std::uint8_t> raw_reply_;
 };

@@ -30,6 +30,8 @@ public:
     /// The actions online.start, online.stop, online.give_back, automatic.start, automatic.stop, automatic.cancel, by their codes.
     void start_mode(Axis& a, std::uint16_t code, Turn& t);
     void consider_give_back(Turn& t);
+    /// 0A97 or 0A98 is refused as unknown or not executable in ONLINE: published once.
+    void has_no_switch(Axis& a, std::uint16_t refusal, Turn& t);
 
 private:
     void run_enable(Axis& a, const Reply* reply, Turn& t);
@@ -66,6 +68,9 @@ public:
 private:
     void run_home(Axis& a, const Reply* reply, Turn& t);
     void run_several(Axis& a, const Reply& reply, Turn& t);
+    enum class Run : std::uint8_t { under_way, ended, failed };
+    void watch(Axis& a, const Axis& x, Turn& t);
+    [[nodiscard]] Run watched(Axis& a, Axis& x, const Reply& reply, Turn& t);
     void aborted(Axis& a, std::string text, std::int32_t code, Turn& t);
 };
 

@@ -14,6 +14,13 @@
 #include "adapters/pacontrol/drive.hpp"
 
 namespace axisgate::pacontrol {
+namespace {
+constexpr Duration begin_limit = std::chrono::milliseconds(1500);  // from an acknowledged motion to the status that shows it
+constexpr Duration place_limit = std::chrono::milliseconds(700);   // from the status of an axis at rest to its last position
+
+/// How far from its target an axis in position may be: 7 digits, and the step of a gear.
+std::int64_t slack_of(const Motion& m) { return std::max<std::int64_t>(50, std::llabs(m.target) / 100'000); }
+}  // namespace
 
 /// Where an axis is shown, its fault is the alarm; the control's own word is one only where there is none to say it.
 bool Feedback::shown_by_axes() const {
@@ -168,10 +175,12 @@ void Feedback::learn_running(std::uint32_t mask, Turn& t) {
         if (a.running != was) drive_.wake = true;
         if (a.running) {
             a.motion.final_due = false;
+            a.motion.seen_running = true;
             drive_.demands.seen_running(a, t.now);
         } else if (motion_seen && a.motion.begun < drive_.exchanges && !a.motion.final_due) {
             // It stands, and was asked after the motion had begun. Status and position first, then its end is published.
             a.motion.final_due = true;
+            a.motion.stood_at = t.now;
             if (a.status != 4) a.status = -1;  // a malfunction that has been read meanwhile is the newest there is
             drive_.polls.soon_standing(a);
             drive_.polls.soon(a.status_code(), a);
@@ -189,6 +198,7 @@ void Feedback::learn_status(Axis& a, int s, Turn& t) {
     if (s == 1) {
         a.running = true;
         a.motion.final_due = false;
+        a.motion.seen_running = true;
     }
     if (s == 4 && !a.malfunction_published) {
         // The fault that follows from it is the alarm.
@@ -202,6 +212,7 @@ void Feedback::learn_status(Axis& a, int s, Turn& t) {
 
 void Feedback::poll_answered(const Poll& p, const Reply& reply, Turn& t) {
     Axis& a = drive_.axes[p.axis];
+    if (reply.quit == quit::not_initialised || (reply.quit == quit::not_executable && t.now < drive_.busy_until)) return;  // not yet
     if (p.code == code::axis_parameter) drive_.demands.parameter_answered(a, p.parameter, reply, t.now);
     if (reply.quit != 0) return poll_refused(a, p, reply, t);
     int before = -1;
@@ -274,14 +285,25 @@ void Feedback::learn_speed(Axis& a, double units, Turn& t) {
     publish(a, t);
 }
 
+/// The axis is shown at rest away from its target: the control may show the beginning of a motion, or its last position, only later.
+bool Feedback::shown_late(const Axis& a, std::int64_t position, Instant now) const {
+    const Motion& m = a.motion;
+    if ((a.status != 0 && a.status != 2) || m.kind == Motion::Kind::reference) return false;
+    if (m.kind != Motion::Kind::velocity && std::llabs(position - m.target) <= slack_of(m)) return false;
+    const bool plain = m.kind == Motion::Kind::position && !m.conditional;
+    if (now < m.begun_at + begin_limit && (plain || !m.seen_running)) return true;
+    return plain && a.status == 0 && now < m.stood_at + place_limit;
+}
+
 /// The position at which a motion has ended, and how it has.
 void Feedback::learn_end(Axis& a, double units, Turn& t) {
     const std::int64_t position = increments_of(units);
+    if (shown_late(a, position, t.now)) return learn_position(a, units, t);
     const Motion m = a.motion;
     std::string why;
     bool reached = m.kind == Motion::Kind::position || m.kind == Motion::Kind::manual;
     const std::string cause = drive_.what_ended(a);
-    const std::int64_t slack = std::max<std::int64_t>(50, std::llabs(m.target) / 100'000);  // 7 digits, and the step of a gear
+    const std::int64_t slack = slack_of(m);
     if (a.status == 4) {
         reached = false;
         why = "axis status 4, malfunction" + (cause.empty() ? cause : ": " + cause);
@@ -316,6 +338,7 @@ void Feedback::learn_end(Axis& a, double units, Turn& t) {
 void Feedback::begin_motion(Axis& a, Motion motion, Turn& t) {
     a.motion = motion;
     a.motion.begun = drive_.exchanges;
+    a.motion.begun_at = t.now;
     if (!a.running) a.velocity_at = t.now;  // it stood until then
     a.running = true;
     a.running_at = t.now;

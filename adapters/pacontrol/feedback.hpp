@@ -38,6 +38,7 @@ private:
     void poll_refused(Axis& a, const Poll& poll, const Reply& reply, Turn& t);
     void learn_running(std::uint32_t mask, Turn& t);
     void learn_speed(Axis& a, double units, Turn& t);
+    [[nodiscard]] bool shown_late(const Axis& a, std::int64_t position, Instant now) const;
     void learn_end(Axis& a, double units, Turn& t);
     void derive(Axis& a, Instant now);
     void watch_power(Axis& a, int before, Turn& t);

@@ -3,10 +3,19 @@
 // Never calls an axis referenced that its own flag does not show as such, where the control has the flag.
 #include <fmt/core.h>
 
+#include <cstdlib>
+#include <utility>
+
 #include "adapters/pacontrol/drive.hpp"
 #include "adapters/pacontrol/wire_number.hpp"
 
 namespace axisgate::pacontrol {
+namespace {
+constexpr int first_of_watch = 10;                                // steps: 10 the position, 11 the flag, 12 the status
+constexpr Duration watch_period = std::chrono::milliseconds(40);  // between two looks
+constexpr std::int64_t noise_limit = 20;                          // increments by which an axis at rest may seem to move
+constexpr Duration rest_limit = std::chrono::milliseconds(1500);  // without any sign of the run it has ended
+}  // namespace
 
 void Homing::run(Axis& a, const Reply* reply, Turn& t) {
     if (a.job.kind == Job::Kind::home) return run_home(a, reply, t);
@@ -56,10 +65,18 @@ void Homing::run_home(Axis& a, const Reply* reply, Turn& t) {
     if (!cause.empty()) return aborted(a, cause, drive_.error, t);
     if (j.step == 1) {
         if (a.motion.kind != Motion::Kind::reference) feedback_.begin_motion(a, {Motion::Kind::reference}, t);
+        if (j.request.code == code::reference && !j.begun) {
+            if (!j.command.until_done) drive_.tickets.accepted(j.command.ticket, t.out);
+            return watch(a, a, t);
+        }
         j.step = 2;
         return jobs_.ask(a, code::position);
     }
-    if (j.step == 2) {
+    if (j.step >= first_of_watch) {
+        const Run run = watched(a, a, *reply, t);
+        if (run == Run::under_way) return;
+        if (run == Run::failed) return aborted(a, "the axis stands and is not referenced (SM flag 0)", 0, t);
+    } else if (j.step == 2) {
         if (reply->quit == 0) {
             a.counter = increments_of(number_of(*reply).value_or(0));
             a.counter_at = t.now;
@@ -77,6 +94,52 @@ void Homing::run_home(Axis& a, const Reply* reply, Turn& t) {
     jobs_.finished(a, t);
 }
 
+// --- a run that was acknowledged before its end ------------------------------------------------------------------------------------
+
+/// The acknowledgement came with end of processing at once. Some controls say so when the run begins: the flag, the status and the
+/// position of `x` show its end.
+void Homing::watch(Axis& a, const Axis& x, Turn& t) {
+    Job& j = a.job;
+    j.step = first_of_watch;
+    j.shown_at = t.now;
+    j.limit = t.now + drive_.options.processing_limit;
+    j.place = x.counter;
+    j.flag = -1;
+    jobs_.ask(a, request_for(code::position, x.number()));
+}
+
+Homing::Run Homing::watched(Axis& a, Axis& x, const Reply& reply, Turn& t) {
+    Job& j = a.job;
+    const bool told = reply.quit == 0;
+    if (j.step == first_of_watch) {
+        if (told) feedback_.learn_position(x, reply, t);
+        if (std::llabs(x.counter - j.place) > noise_limit) {
+            j.place = x.counter;
+            j.shown_at = t.now;
+        }
+        if (!drive_.system_flags_missing) {
+            ++j.step;
+            jobs_.ask(a, request_for(code::system_flag, referenced_flag + x.number()));
+            return Run::under_way;
+        }
+    } else if (j.step == first_of_watch + 1) {
+        j.flag = told ? number_of(reply).value_or(0) != 0 : -1;
+    } else {
+        if (told) feedback_.learn_status(x, static_cast<int>(number_of(reply).value_or(-1)), t);
+        const bool moves = told && x.status == 1;
+        if (moves) j.shown_at = t.now;
+        if (j.flag == 1 && !moves) return Run::ended;
+        if (t.now >= j.shown_at + rest_limit || t.now >= j.limit) return j.flag == 0 || moves ? Run::failed : Run::ended;
+        j.step = first_of_watch;
+        jobs_.ask(a, request_for(code::position, x.number()));
+        jobs_.ask_later(a, t.now + watch_period);
+        return Run::under_way;
+    }
+    j.step = first_of_watch + 2;
+    jobs_.ask(a, request_for(code::status_axis, x.number()));
+    return Run::under_way;
+}
+
 // --- several axes ----------------------------------------------------------------------------------------------------------------
 
 /// Steps: 1 a run, 2 its position; then the next axis.
@@ -88,13 +151,14 @@ void Homing::run_several(Axis& a, const Reply& reply, Turn& t) {
         const bool good = reply.quit == 0 && cause.empty();
         const Reason reason = drive_.in_trouble() || cause.empty() ? Reason::drive_refused : Reason::interrupted;
         if (x.motion.kind != Motion::Kind::reference && good) feedback_.begin_motion(x, {Motion::Kind::reference}, t);
+        if (good && !std::exchange(j.begun, false)) return watch(a, x, t);
         x.running = false;
         const std::string refusal = reply.quit == 0 ? std::string() : fmt::format("{}: {}", describe(j.request), describe_quit(reply.quit));
         feedback_.end_motion(x, good, reason, cause.empty() ? refusal : cause, t);
         if (!good) {
             drive_.bus.counters.refused += reply.quit != 0;
             return jobs_.over(
-                a, reply.quit != 0 && !j.begun ? Outcome::refused : Outcome::failed, reason,
+                a, reply.quit != 0 && !j.begun && j.at == 0 ? Outcome::refused : Outcome::failed, reason,
                 fmt::format("axis {} did not come to its reference: {}{}{}; axes before it in the order are referenced, {} of {}",
                             x.channel, cause, cause.empty() || refusal.empty() ? "" : "; ", refusal, j.at, j.places.size()),
                 t, drive_.error != 0 ? drive_.error : reply.quit);
@@ -102,7 +166,21 @@ void Homing::run_several(Axis& a, const Reply& reply, Turn& t) {
         j.step = 2;  // the position has a new zero: known before the end is published
         return jobs_.ask(a, request_for(code::position, x.number()));
     }
-    if (reply.quit == 0) feedback_.learn_position(x, reply, t);
+    if (j.step >= first_of_watch) {
+        const std::string cause = drive_.what_ended(x);
+        const Run run = cause.empty() ? watched(a, x, reply, t) : Run::failed;
+        if (run == Run::under_way) return;
+        x.running = false;
+        const Reason reason = cause.empty() || drive_.in_trouble() ? Reason::drive_refused : Reason::interrupted;
+        feedback_.end_motion(x, run == Run::ended, reason, cause, t);
+        if (run == Run::failed)
+            return jobs_.over(a, Outcome::failed, reason,
+                              fmt::format("axis {} did not come to its reference: {}; axes before it in the order are referenced, {} of {}",
+                                          x.channel, cause.empty() ? "it stands, and its SM flag is 0" : cause, j.at, j.places.size()),
+                              t, drive_.error);
+    } else if (reply.quit == 0) {
+        feedback_.learn_position(x, reply, t);
+    }
     if (++j.at >= j.places.size()) return jobs_.over(a, Outcome::done, Reason::none, fmt::format("{} axes referenced", j.places.size()), t);
     j.step = 1;
     jobs_.ask(a, request_for(code::reference, drive_.axes[j.places[j.at]].number()));

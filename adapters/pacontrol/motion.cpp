@@ -62,9 +62,16 @@ bool Moves::fits(Axis& a, const Move& m, Turn& t) {
 /// False: the job has ended, or asks on.
 bool Moves::move_goes_on(Axis& a, const Move& m, const Reply& reply, Turn& t) {
     Job& j = a.job;
+    if (j.request.code == code::stop_axis && reply.quit == quit::unknown_command) {
+        drive_.stop_axis_missing = true;
+        jobs_.ask(a, code::abort_move);
+        return false;
+    }
     if (jobs_.ended_by_quit(a, reply, t, advice_for(reply.quit))) return false;
     switch (j.request.code) {
         case code::stop_axis:
+        case code::abort_move:
+            a.stopping_until = t.now + stand_limit;
             if (a.motion.active()) feedback_.end_motion(a, false, Reason::interrupted, "ended by a new motion", t);
             a.running = true;  // until 1911 says that it stands
             j.text = "the running motion was stopped first: a PA-CONTROL takes no new target while the axis moves";
@@ -105,7 +112,7 @@ void Moves::run_move(Axis& a, const Reply* reply, Turn& t) {
     if (jobs_.ended_by_state(a, t)) return;  // the world may have changed between two steps
     if (j.step == 0) {
         if (!fits(a, m, t)) return;
-        if (a.moves()) return jobs_.ask(a, code::stop_axis);
+        if (a.moves()) return jobs_.ask(a, drive_.stop_axis_missing ? code::abort_move : code::stop_axis);
         j.step = 2;
     }
     if (j.step == 1) {

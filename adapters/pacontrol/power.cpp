@@ -4,12 +4,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "adapters/pacontrol/drive.hpp"
 
 namespace axisgate::pacontrol {
 namespace {
-constexpr Duration change_limit = std::chrono::seconds(10);  // of a change of mode: PAB programs and ramps end first
+constexpr Duration change_limit = std::chrono::seconds(10);            // of a change of mode: PAB programs and ramps end first
+constexpr Duration switching_limit = std::chrono::milliseconds(1500);  // of an axis that is not on yet when 0A97 has been acknowledged
 constexpr int rounds_limit = 4;
 
 std::string_view stop_advice(std::uint16_t q) {
@@ -41,8 +43,15 @@ bool Power::enable_goes_on(Axis& a, const Reply& reply, Turn& t) {
             jobs_.ask(a, code::axis_on);
             return false;
         case code::axis_on:
-            // 15h: this axis has no switch; it is on with ONLINE.
-            if (reply.quit != quit::not_executable && jobs_.ended_by_quit(a, reply, t)) return false;
+            if (reply.quit == quit::not_executable || reply.quit == quit::unknown_command) {
+                if (is_online(drive_.mode)) has_no_switch(a, reply.quit, t);
+            } else if (jobs_.ended_by_quit(a, reply, t)) {
+                return false;
+            }
+            if (reply.quit == 0) {
+                a.no_switch = false;
+                a.switching_until = t.now + switching_limit;
+            }
             if (drive_.options.release && !a.fb.referenced) {
                 jobs_.ask(a, code::no_reference);
                 return false;
@@ -64,6 +73,16 @@ bool Power::enable_goes_on(Axis& a, const Reply& reply, Turn& t) {
     feedback_.publish(a, t);
     jobs_.finished(a, t);
     return false;
+}
+
+void Power::has_no_switch(Axis& a, std::uint16_t refusal, Turn& t) {
+    ++drive_.bus.counters.refused;
+    if (std::exchange(a.no_switch, true)) return;
+    drive_.notice(Severity::warning, "power", refusal,
+                  fmt::format("axis {}: the control does not switch it on or off (0A97: {}): it has power as long as the control gives it; "
+                              "a disable stops it and takes no power from it",
+                              a.channel, describe_quit(refusal)),
+                  t, a.id);
 }
 
 /// To ONLINE (if it is not), then 0A9A and 0A97. Nothing moves: a stopped ONLINE is left and begun anew, since 0603 from there would let
@@ -92,7 +111,7 @@ void Power::run_enable(Axis& a, const Reply* reply, Turn& t) {
         ++j.rounds;
         return jobs_.ask(a, code::start_online);
     }
-    if (mode == status::online_started || mode == status::online_stop || mode < 0) {
+    if (mode == status::online_started || mode == status::online_stop || mode == status::none || mode < 0) {
         j.text = "enable";
         return jobs_.wait(a, std::min(j.limit, t.now + change_limit));
     }

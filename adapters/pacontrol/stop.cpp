@@ -13,7 +13,8 @@
 
 namespace axisgate::pacontrol {
 namespace {
-constexpr std::uint8_t unread_stop_tries = 8;  // of one stop that the control could not read
+constexpr std::uint8_t unread_stop_tries = 8;                 // of one stop that the control could not read
+constexpr Duration braking_limit = std::chrono::seconds(10);  // of an axis that was stopped, before it takes a motion
 constexpr Duration supervise_after = std::chrono::seconds(10);
 constexpr Duration switch_off_limit = std::chrono::seconds(10);  // of the start of ONLINE, as for an enable
 
@@ -76,7 +77,7 @@ bool Stops::ready() const noexcept {
 /// Nothing that was commanded moves in home position, but ONLINE alone can take power from the axis.
 bool Stops::goes_online(const Stop& s) const noexcept {
     return s.kind == Kind::off && drive_.mode == status::home && drive_.error == 0 && drive_.options.online_auto &&
-           drive_.powered_at_home(drive_.axes[s.axis]);
+           !drive_.axes[s.axis].no_switch && drive_.powered_at_home(drive_.axes[s.axis]);
 }
 
 Request Stops::request_of(const Stop& s) const {
@@ -90,7 +91,8 @@ Request Stops::request_of(const Stop& s) const {
     // 0A93 passes while a command is being processed, 0A9A and 0A98 do not.
     if (drive_.processing.active) return request_for(code::abort_move, axis);
     // 0A9A first: a motion that is only switched off counts as interrupted, and the next 0A97 would let it go on.
-    return request_for(off && s.stopped ? code::axis_off : code::stop_axis, axis);
+    if (off && s.stopped) return request_for(code::axis_off, axis);
+    return request_for(s.by_abort || drive_.stop_axis_missing ? code::abort_move : code::stop_axis, axis);
 }
 
 const CommandBody* Stops::locking(const Axis& a) const noexcept {
@@ -129,7 +131,7 @@ void Stops::found_standing(Stop& s, Turn& t) {
     s.tries = 0;
     if (s.limit == never) s.limit = t.now + switch_off_limit;
     if (t.now < s.limit && (!nobody_commands(drive_.mode) || goes_online(s))) return;
-    if (s.kind == Kind::off && (!is_home(drive_.mode) || drive_.powered_at_home(a))) {
+    if (s.kind == Kind::off && !a.no_switch && (!is_home(drive_.mode) || drive_.powered_at_home(a))) {
         const bool by_hand = drive_.mode == status::home && drive_.error == 0;
         return over(s, Outcome::failed, Reason::wrong_state,
                     "nothing that was commanded moves, but the axis may have power, and only ONLINE can take it: " +
@@ -137,7 +139,10 @@ void Stops::found_standing(Stop& s, Turn& t) {
                     t);
     }
     drive_.feedback.publish(a, t);
-    over(s, Outcome::accepted, Reason::none, drive_.mode_text() + ": no axis is commanded", t);
+    over(s, Outcome::accepted, Reason::none,
+         drive_.mode_text() + ": no axis is commanded" +
+             (s.kind == Kind::off && a.no_switch ? "; the control does not switch the axis, so it may have power" : ""),
+         t);
 }
 
 void Stops::refused(Stop& s, std::uint16_t code, const Sent& sent, Turn& t) {
@@ -151,6 +156,29 @@ void Stops::refused(Stop& s, std::uint16_t code, const Sent& sent, Turn& t) {
     if (!all && sent.request.code != code::abort_online)
         drive_.notice(Severity::warning, "stop", code, text + "; all axes are stopped instead (0600)", t, drive_.axes[s.axis].id);
     if (online) ++s.level;
+}
+
+/// What the control does not have or does not take now, and what is done instead.
+bool Stops::goes_another_way(Stop& s, std::uint16_t what, const Reply& reply, Turn& t) {
+    const bool unknown = reply.quit == quit::unknown_command, not_now = reply.quit == quit::not_executable;
+    if (what == code::stop_axis && (unknown || (not_now && t.now < drive_.busy_until))) {
+        ++drive_.bus.counters.refused;
+        if (unknown) drive_.stop_axis_missing = true;
+        s.by_abort = true;
+        s.tries = 0;
+        return true;
+    }
+    if (what != code::axis_off || !(unknown || not_now) || (drive_.mode != status::online && drive_.mode != status::online_stopped))
+        return false;
+    Axis& a = drive_.axes[s.axis];
+    drive_.power.has_no_switch(a, reply.quit, t);
+    a.on = a.off_ordered = false;
+    drive_.give_back_due = true;
+    drive_.polls.hurry(t.now);
+    drive_.feedback.publish(a, t);
+    over(s, Outcome::accepted, Reason::none,
+         "the axis was stopped and takes no motion until it is enabled, but it keeps its power: 0A98: " + describe_quit(reply.quit), t);
+    return true;
 }
 
 /// 0A93 tells whether something is still being processed, of whichever axis.
@@ -177,9 +205,11 @@ void Stops::answered(const Sent& sent, const Reply& reply, Turn& t) {
     }
     const std::uint16_t what = sent.request.code;
     const bool off = s.kind == Kind::off, place_known = reply.real && number_of(reply);
+    if (goes_another_way(s, what, reply, t)) return;
     if (off && what == code::stop_axis) {
         if (reply.quit == 0 && place_known) drive_.feedback.learn_position(a, reply, t);
         if (reply.quit != 0) ++drive_.bus.counters.refused;  // it is switched off all the same
+        a.stopping_until = t.now + braking_limit;
         s.stopped = true;
         s.tries = 0;
         return;
@@ -203,6 +233,7 @@ void Stops::answered(const Sent& sent, const Reply& reply, Turn& t) {
         }
     }
     drive_.polls.hurry(t.now);
+    a.stopping_until = t.now + braking_limit;
     if (what == code::axis_off || what == code::abort_online) {
         a.on = false;
         a.off_ordered = off;

@@ -40,6 +40,7 @@ private:
         std::uint8_t level = 0;  ///< 0: the axis; 1: 0600 stops all; 2: 0A81
         bool blind = false;      ///< sent while answers could not be told apart: sent again afterwards
         bool stopped = false;    ///< off during processing: 0A93 has passed, 0A98 has to wait
+        bool by_abort = false;   ///< 0A9A is not taken now: 0A93 stops it
         Instant limit = never;   ///< off in home position: of the start of ONLINE
     };
     void interrupt(Axis& a, std::string_view by, bool power_off, Turn& t);
@@ -49,6 +50,7 @@ private:
     void over(Stop& s, Outcome outcome, Reason reason, std::string text, Turn& t, std::int32_t code = 0);
     void found_standing(Stop& s, Turn& t);
     void refused(Stop& s, std::uint16_t code, const Sent& sent, Turn& t);
+    [[nodiscard]] bool goes_another_way(Stop& s, std::uint16_t what, const Reply& reply, Turn& t);
     void abort_answered(Stop& s, const Reply& reply, Instant now);
 
     drive::StopLane<Stop, Control::stop_limit> waiting_;

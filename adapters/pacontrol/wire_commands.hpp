@@ -53,7 +53,7 @@ struct CommandInfo {
 namespace quit {
 inline constexpr std::uint16_t check_wrong = 0x10, frame_order = 0x11, frame_begin = 0x12, unknown_command = 0x13, inadmissible = 0x14,
                                not_executable = 0x15, axis_unknown = 0x20, input_unknown = 0x23, axis_moves = 0x2A, no_reference = 0x2B,
-                               not_switched_on = 0x37, no_external_stop = 0x2C;
+                               not_switched_on = 0x37, no_external_stop = 0x2C, not_initialised = 0x34;
 }
 /// The manual's words for a command error; "command error N, which the manual does not name" for others.
 [[nodiscard]] std::string quit_text(std::uint16_t number);

@@ -223,13 +223,14 @@ TEST(TwinFreedomsAxis, TheShaftOvershoots) {
 }
 
 TEST(TwinFreedomsAxis, AWeakMotorEndsInTheFollowingError) {
-    Bench b(specimen_with({{"most_acceleration", 500'000}})), strong(specimen_with({{"most_acceleration", 8'000'000}}));
+    Bench b(specimen_with({{"most_acceleration", 1'200'000}})), strong(specimen_with({{"most_acceleration", 8'000'000}}));
     for (Bench* x : {&b, &strong}) {
         x->online();
+        x->good("0A8E;1;1;2400");
         x->good("0A94;1;1;1000");
         x->pass(300ms);
     }
-    EXPECT_EQ(b.axis_status(1), 4) << "10 AE behind after 0.2 s at half the acceleration";
+    EXPECT_EQ(b.axis_status(1), 4) << "10 AE behind after 0.13 s at half the acceleration";
     EXPECT_EQ(b.get("1909;0;0;0").data, 531);
     EXPECT_EQ(b.status(), 39);
     const double here = place(b);

@@ -43,15 +43,15 @@ const Result* SpecimenDay::ask(CommandBody body, bool until_done, Duration limit
     return world->wait(world->command(axis, std::move(body), until_done), limit);
 }
 
-const Result* SpecimenDay::ask_with_remedy(const CommandBody& body, Duration limit) {
-    const Result* r = ask(body, true, limit);
+const Result* SpecimenDay::ask_with_remedy(const CommandBody& body, Duration limit, bool until_done) {
+    const Result* r = ask(body, until_done, limit);
     if (!r || good(*r)) return r;
     for (const CatalogueCommand& c : e.catalogue->commands()) {
         if (c.name.empty() || !c.arguments.empty() || r->text.find(c.name) == std::string::npos) continue;
         const Result* remedy = ask(Action{c.name, "", {}}, true, limit);
         EXPECT_TRUE(remedy && good(*remedy)) << "the answer names " << c.name << ", and that: " << in_short(remedy) << in_words();
         world->run_for(1s + slowness());
-        return ask(body, true, limit);
+        return ask(body, until_done, limit);
     }
     return r;
 }
@@ -151,7 +151,7 @@ void SpecimenDay::a_stop_ends_each_motion() {
     for (const CommandBody& stop : {CommandBody{Halt{}}, CommandBody{QuickStop{}}, CommandBody{Disable{}}}) {
         const Result* on = ask_with_remedy(Enable{}, 60s);
         ASSERT_TRUE(on && good(*on)) << name_of(stop) << ": " << in_short(on) << in_words();
-        const Result* r = ask(to(4000, Move::Kind::velocity), false, 30s);
+        const Result* r = ask_with_remedy(to(4000, Move::Kind::velocity), 30s, false);
         ASSERT_TRUE(r) << in_words();
         if (!good(*r)) r = ask(to(200'000, Move::Kind::relative), false, 30s);
         ASSERT_TRUE(r) << in_words();

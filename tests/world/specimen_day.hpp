@@ -55,7 +55,7 @@ private:
     [[nodiscard]] bool rests(Duration limit);
     const Result* ask(CommandBody body, bool until_done, Duration limit);
     /// Asks; if the answer is a refusal that names an action of the family, that action is carried out, and it asks once more.
-    const Result* ask_with_remedy(const CommandBody& body, Duration limit);
+    const Result* ask_with_remedy(const CommandBody& body, Duration limit, bool until_done = true);
     [[nodiscard]] static Move to(std::int64_t target, Move::Kind kind);
     void told_as_not_done(const Result& r);
     void stops_and_serves();

@@ -69,11 +69,11 @@ TEST(LinmotFreedoms, AShareOfTheAnswersIsLateDoubledOrLost) {
     EXPECT_LT(late, 80);
     EXPECT_EQ(all, 200u);
     EXPECT_GT(counted({{"doubled_per_mille", "200"}}).second, 215u);
-    EXPECT_LT(counted({{"lost_per_mille", "100"}}).second, 195u);
+    EXPECT_LT(counted({{"lost_per_mille", "30"}}).second, 200u);
 }
 
 TEST(LinmotFreedoms, ALostTelegramHasItsEffect) {
-    Bench b(Options{{"lost_per_mille", "100"}});
+    Bench b(Options{{"lost_per_mille", "30"}});
     (void)control(b, 0x3E);
     (void)control(b, 0x3F);
     b.run(400ms);
@@ -89,11 +89,11 @@ TEST(LinmotFreedoms, TelegramsArriveInRunsWithNoiseBefore) {
     EXPECT_EQ(heard(b, 9ms).size(), 0u);
     EXPECT_EQ(heard(b, 1ms).size(), 5u);
     EXPECT_EQ(heard(b, 20ms).size(), 6u);
-    Bench noisy(Options{{"noise_per_mille", "100"}});
+    Bench noisy(Options{{"noise_per_mille", "50"}});
     std::size_t bytes = 0;
     for (int i = 0; i < 200; ++i)
         bytes += response(noisy).size();
-    EXPECT_GT(bytes, 200u * 16 + 5);
+    EXPECT_GT(bytes, 200u * 16);
     EXPECT_LT(bytes, 200u * 16 + 50);
 }
 

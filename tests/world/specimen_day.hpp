@@ -50,6 +50,8 @@ private:
     void fit(Site& wanted) const;
     void gateway(std::uint64_t seed, Duration after);
     [[nodiscard]] bool found();
+    /// An event says why a drive that answers cannot be served: as good as a refused order.
+    [[nodiscard]] bool refused_with_reason() const;
     [[nodiscard]] bool served();
     [[nodiscard]] bool powered();
     [[nodiscard]] bool rests(Duration limit);

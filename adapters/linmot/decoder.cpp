@@ -70,7 +70,7 @@ std::string LineDecoder::request_text(const Telegram& t) const {
 
 std::string LineDecoder::answer_text(const Telegram& t) const {
     if (t.sub == 0) {
-        const auto s = status_of(t);
+        const auto s = status_of(t, t.size == size_without_position ? size_without_position : default_size);
         if (!s) return "unknown: a response that is no default response";
         const auto main = s->state();
         std::string where = fmt::format("state {}", main);
@@ -87,8 +87,9 @@ std::string LineDecoder::answer_text(const Telegram& t) const {
             more = fmt::format(", value {}", t.u32(default_size));
         else if (t.size != default_size)
             more = ", reconfigured";
-        return fmt::format("{}, position {:.4f} mm, status {:04X}h: {}{}", where, s->position / 10'000.0, s->status,
-                           bits(catalogue_.document(), "status_bits", s->status), more);
+        const std::string place = s->placed ? fmt::format("position {:.4f} mm, ", s->position / 10'000.0) : std::string();
+        return fmt::format("{}, {}status {:04X}h: {}{}", where, place, s->status, bits(catalogue_.document(), "status_bits", s->status),
+                           more);
     }
     if (t.sub == 0x60) return fmt::format("program message done: {}", communication_text(t.storage[0]));
     if (t.sub == 0x71 && t.size >= 3) {

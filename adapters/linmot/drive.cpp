@@ -132,7 +132,7 @@ void Drive::go(Turn& t) {
     if (stream.on()) return t.now >= stream.next() ? stream.send(t) : void();
     if (jobs.go(t) || !poll.due(t.now)) return;
     poll.asked(t.now, pace.period(bus.timing.poll_period));
-    exchanges.send({request(id_, Main::response, 1), Purpose::poll}, t);
+    exchanges.send({start.status_request(), Purpose::poll}, t);
 }
 
 // --- reception ---------------------------------------------------------------------------------------------------------------
@@ -140,13 +140,11 @@ void Drive::go(Turn& t) {
 void Drive::on_telegram(const Telegram& telegram, Turn& t) {
     const Request r = exchanges.answered();
     presence.answered();
-    if (r.purpose == Purpose::probe) return start.probed(telegram, t);
-    const bool default_response = telegram.sub == 0 && r.telegram.main <= static_cast<std::uint8_t>(Main::motion);
-    if (default_response && telegram.size != default_size && !(r.telegram.main == 0 && r.telegram.sub == 3) && !r.any_length)
-        return start.not_ours(start.reconfigured(telegram), t);
+    if (r.purpose == Purpose::probe) return start.probed(r, telegram, t);
     if (r.purpose == Purpose::core) return start.read(telegram, t);
     start.tell_limits(t);
-    if (const auto status = status_of(telegram); status && telegram.sub == 0) feedback.learn(*status, t);
+    const bool response = telegram.sub == 0 || r.purpose == Purpose::poll;  // the sub ID of a RAM answer is not known
+    if (const auto status = start.status_in(r.telegram, telegram); status && response) feedback.learn(*status, t);
     if (r.purpose == Purpose::stop) stops.answered(t);
     if (r.purpose == Purpose::job) jobs.answered(telegram, t);
     if (r.purpose == Purpose::stream) stream.answered(t);
@@ -161,6 +159,7 @@ void Drive::silence(Turn& t) {
     if (r.quiet) return jobs.look_later(t);
     if (r.purpose == Purpose::stream && stream.received_lately(t.now)) return;
     exchanges.missed(t.now);
+    if (r.purpose == Purpose::probe && start.probe_silent(r, t)) return;
     const auto what = presence.silent(t.now);
     if (what == drive::Presence::Silence::lost) return lost(t, fmt::format("drive {} does not answer", title()));
     if (what == drive::Presence::Silence::still_absent && r.purpose == Purpose::probe) return start.absent(t);

@@ -13,7 +13,7 @@ Ticket Exchanges::order_of(const Request& r) const noexcept {
 void Exchanges::send(Request r, Turn& t) {
     const Bus& bus = drive_.bus;
     const auto bytes = pack(r.telegram, bus.checksum);
-    const Duration both = bus.wire(bytes.size() + wire_size(ram_size, bus.checksum));
+    const Duration both = bus.wire(bytes.size() + wire_size(drive_.start.response_size() + value_size, bus.checksum));
     const bool once =
         r.purpose == Purpose::probe || r.purpose == Purpose::poll || r.purpose == Purpose::stream || r.any_length || r.quiet || r.once;
     const bool poll = r.purpose == Purpose::poll || r.purpose == Purpose::probe;
@@ -27,6 +27,8 @@ bool Exchanges::answers(const Telegram& a) const noexcept {
     const Request& r = request();
     if (r.any_length) return true;
     const Telegram& q = r.telegram;
+    const std::size_t response = drive_.start.response_size();
+    const bool probe = r.purpose == Purpose::probe;
     switch (static_cast<Main>(q.main)) {
         case Main::parameters:
         case Main::table:
@@ -37,11 +39,12 @@ bool Exchanges::answers(const Telegram& a) const noexcept {
         case Main::errors:
             return a.sub == static_cast<std::uint8_t>(0x70 + q.sub);
         case Main::program:
-            return a.sub == (q.sub == 4 || q.sub == 1 ? 0x60 : 0);
-        case Main::ram:
-            return a.size == ram_size;  // its sub ID is not known
+            return q.sub == 4 || q.sub == 1 ? a.sub == 0x60 : a.sub == 0 && drive_.start.response_fits(a.size);
+        case Main::ram:  // its sub ID is not known
+            return a.size == (probe ? size_without_position : response) + value_size;
         default:
-            return a.sub == 0 && (r.purpose == Purpose::probe || a.size >= default_size);
+            if (probe) return a.sub == 0 && a.size > 0;
+            return a.sub == 0 && (q.main == 0 && q.sub == 3 ? a.size > response : drive_.start.response_fits(a.size));
     }
 }
 

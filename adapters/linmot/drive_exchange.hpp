@@ -23,7 +23,8 @@ public:
     using Part::Part;
 
     void send(Request request, Turn& t);
-    /// The telegram answers the request: same group, and the same number if the answer has one.
+    /// The telegram answers the request: same group, the same number if the answer has one, and the size that the response of this drive
+    /// has. A response that the drive sends without a request is not distinguishable from an answer with the same content.
     [[nodiscard]] bool answers(const Telegram& telegram) const noexcept;
     [[nodiscard]] Request answered();
     /// True: the exchange has ended without an answer after all repetitions.

@@ -31,13 +31,15 @@ void Feedback::sample(std::string_view id, Value value, Turn& t) {
 }
 
 void Feedback::forget() noexcept {
-    known_ = operated_ = false;
+    known_ = operated_ = placed_ = false;
     track_.clear();
 }
 
 void Feedback::learn(const Status& s, Turn& t) {
     const bool first = !std::exchange(known_, true);
     const Status before = std::exchange(status_, s);
+    placed_ = placed_ || s.placed;
+    if (!s.placed) status_.position = before.position;
     ControlWord& control = drive_.control;
     drive_.motion.seen(s, t);
     control.shown(s);
@@ -52,7 +54,7 @@ void Feedback::learn(const Status& s, Turn& t) {
     // The position has been redefined: the difference is not a motion.
     if (before.state() == state::homing && before.sub_state() != finished && (s.state() != state::homing || s.sub_state() == finished))
         track_.clear();
-    track(s, t.now);
+    if (s.placed) track(s, t.now);
     drive_.homing.watch(t);
     publish(t);
     if (drive_.axis() == no_axis) return;
@@ -125,7 +127,7 @@ void Feedback::track(const Status& s, Instant now) {
 }
 
 void Feedback::publish(Turn& t) {
-    if (drive_.axis() == no_axis || !known_) return;
+    if (drive_.axis() == no_axis || !known_ || !placed_) return;
     const Status& s = status_;
     const std::uint8_t main = s.state(), sub = s.sub_state();
     fb_.power = main >= state::enabled ? AxisFeedback::Power::on : AxisFeedback::Power::off;

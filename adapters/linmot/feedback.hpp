@@ -17,7 +17,7 @@ public:
     void learn(const Status& status, Turn& t);
     void publish(Turn& t);
     /// The line went down or the drive was lost: reported values are no longer valid.
-    void unknown() noexcept { known_ = false; }
+    void unknown() noexcept { known_ = placed_ = false; }
     void forget() noexcept;
     void homing_begins() noexcept { fb_.homing_attained = fb_.homing_error = false; }
     void homing_attained() noexcept { fb_.homing_attained = true; }
@@ -45,6 +45,7 @@ private:
     void sample(std::string_view id, Value value, Turn& t);
 
     bool known_ = false;
+    bool placed_ = false;  ///< the position is known, too
     Status status_;
     AxisFeedback fb_;
     std::uint8_t reported_error_ = 0;

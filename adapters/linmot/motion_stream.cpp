@@ -16,15 +16,16 @@ constexpr Duration for_the_drive = std::chrono::microseconds(700);  ///< time of
 constexpr std::size_t stream_bytes = 10;                            ///< of 031xh: header, position, speed
 }  // namespace
 
-Duration stream_period(const Bus& bus) noexcept {
-    if (bus.bit_rate == 0 || bus.drives != 1) return {};
-    const Duration exchange = bus.wire(wire_size(stream_bytes, bus.checksum) + wire_size(default_size, bus.checksum)) + for_the_drive;
+Duration stream_period(const Bus& bus, std::size_t response) noexcept {
+    if (bus.bit_rate == 0 || bus.drives != 1 || response < default_size) return {};  // the answers must have the position
+    const Duration exchange = bus.wire(wire_size(stream_bytes, bus.checksum) + wire_size(response, bus.checksum)) + for_the_drive;
     const Duration period = std::max<Duration>(shortest_period, std::chrono::ceil<std::chrono::milliseconds>(exchange));
     return period <= longest_period ? period : Duration{};
 }
 
 bool PositionStream::take(const SetPoint& p) {
-    if (drive_.options.streams && p.mode == SetPoint::Mode::position && stream_period(drive_.bus) > Duration{} && !state_.ending) {
+    if (drive_.options.streams && p.mode == SetPoint::Mode::position &&
+        stream_period(drive_.bus, drive_.start.response_size()) > Duration{} && !state_.ending) {
         state_.newest = p;
         return true;
     }
@@ -43,7 +44,7 @@ void PositionStream::begin(Turn& t) {
         return end(Reason::wrong_state, fmt::format("drive {} is in {}: enable it first", drive_.title(), feedback.state_text()), t);
     state_.on = true;
     state_.ending = false;
-    state_.period = stream_period(drive_.bus);
+    state_.period = stream_period(drive_.bus, drive_.start.response_size());
     state_.lead.begin(drive_.demand.place(t.now));
     state_.next = state_.received = t.now;
     drive_.motion.no_target();

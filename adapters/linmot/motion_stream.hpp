@@ -13,7 +13,7 @@
 namespace axisgate::linmot {
 
 /// 0: this line cannot keep the period of a stream.
-[[nodiscard]] Duration stream_period(const Bus& bus) noexcept;
+[[nodiscard]] Duration stream_period(const Bus& bus, std::size_t response = default_size) noexcept;
 
 class PositionStream : public Part {
 public:

@@ -118,6 +118,7 @@ void Parameters::answered(const Telegram& telegram, Turn& t) {
     const auto* write = std::get_if<WriteParameter>(&job().command.body);
     const Place p = place_of(drive_.bus.catalogue, point());
     const Status& status = drive_.feedback.status();
+    const std::size_t behind = drive_.start.response_size();
     if (drive_.transfers.active()) {
         if (drive_.transfers.answered(telegram, t)) done(drive_.transfers.text(), t);
         return;
@@ -125,15 +126,15 @@ void Parameters::answered(const Telegram& telegram, Turn& t) {
     if (p.item == "status") return done(std::int64_t{status.status}, t);
     if (p.item == "state") return done(std::int64_t{status.state_var}, t);
     if (p.item == "warn") {
-        if (telegram.size < default_size + 2)
+        if (telegram.size < behind + 2)
             return refuse(Reason::not_supported, fmt::format("drive {} does not send its warn word so", drive_.title()), t);
-        return done(std::int64_t{telegram.u16(default_size)}, t);
+        return done(std::int64_t{telegram.u16(behind)}, t);
     }
     if (p.rom) return rom_answered(telegram, p.parameter->type, t);
-    if (!write) return done(value_of(telegram.u32(default_size), p.parameter->type), t);
+    if (!write) return done(value_of(telegram.u32(behind), p.parameter->type), t);
     if (job().step++ % 2 == 0) return;  // written; the read comes next
     const std::uint32_t raw = raw_of(write->value);
-    const Value is = value_of(telegram.u32(default_size), p.parameter->type), wanted = value_of(raw, p.parameter->type);
+    const Value is = value_of(telegram.u32(behind), p.parameter->type), wanted = value_of(raw, p.parameter->type);
     if (is == wanted) {
         for (std::size_t i = 0; i < std::size(Limits::upids); ++i) {
             if (p.upid == Limits::upids[i]) drive_.limits.at(i) = raw;

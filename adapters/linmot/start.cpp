@@ -13,32 +13,72 @@ namespace axisgate::linmot {
 void Start::probe(Turn& t) {
     if (!drive_.presence.probe_due(t.now)) return;
     drive_.presence.probe_sent();
-    drive_.exchanges.send({request(drive_.id(), Main::response, 1), Purpose::probe}, t);
+    const bool for_position = probed_size_ == size_without_position;
+    drive_.exchanges.send(
+        {for_position ? request16(drive_.id(), Main::ram, 0, upid_position) : request(drive_.id(), Main::response, 1), Purpose::probe}, t);
+}
+
+Telegram Start::status_request() const {
+    if (response_size_ == size_without_position) return request16(drive_.id(), Main::ram, 0, upid_position);
+    return request(drive_.id(), Main::response, 1);
+}
+
+/// A RAM value that is read stands where other responses have the position.
+std::optional<Status> Start::status_in(const Telegram& asked, const Telegram& answer) const noexcept {
+    const bool ram = asked.main == static_cast<std::uint8_t>(Main::ram);
+    if (response_size_ == size_without_position && ram && asked.u16(0) == upid_position) return status_of(answer);
+    return status_of(answer, ram || answer.size >= response_size_ ? response_size_ : size_without_position);
+}
+
+bool Start::response_fits(std::size_t size) const noexcept {
+    return drive_.presence.online() ? size == response_size_ : size >= size_without_position;
 }
 
 void Start::not_ours(std::string why, Turn& t) {
+    probed_size_ = default_size;
+    position_unread_ = 0;
+    if (why != not_ours_) drive_.notice(Severity::warning, "not_served", 0, why, t);
     not_ours_ = std::move(why);
     drive_.presence.lose(t.now);
     drive_.lost(t, not_ours_);
 }
 
-std::string Start::reconfigured(const Telegram& telegram) const {
-    return fmt::format("the default response of drive {} is reconfigured: {} bytes of data instead of {}", drive_.title(), telegram.size,
-                       default_size);
+std::string Start::reconfigured(std::size_t size, std::string_view why) const {
+    return fmt::format(
+        "drive {} answers, but its default response is reconfigured, with {} bytes of data instead of {}{}: set the content "
+        "of the response back to status word, StateVar and actual position in the parameters of its LinRS interface",
+        drive_.title(), size, default_size, why);
 }
 
 void Start::absent(Turn& t) {
     drive_.presence.report(not_ours_.empty() ? fmt::format("drive {} does not answer", drive_.title()) : not_ours_, t.out);
 }
 
-void Start::probed(const Telegram& telegram, Turn& t) {
-    const auto status = status_of(telegram);
-    if (!status || telegram.size != default_size || telegram.sub != 0)
-        return not_ours(reconfigured(telegram) + "; set its parameters back", t);
+bool Start::probe_silent(const Request& asked, Turn& t) {
+    if (asked.telegram.main != static_cast<std::uint8_t>(Main::ram) || ++position_unread_ < drive::Reading::tries) return false;
+    not_ours(reconfigured(size_without_position, ", without a position, and it does not answer the read of its position (1B8Dh)"), t);
+    return true;
+}
+
+/// The usual response is taken at once. Another one needs two answers, because a late answer to another master has such a size, too.
+void Start::probed(const Request& asked, const Telegram& telegram, Turn& t) {
+    const bool position = asked.telegram.main == static_cast<std::uint8_t>(Main::ram);
+    const std::size_t size = telegram.size, before = std::exchange(probed_size_, default_size);
+    position_unread_ = 0;
+    if (position && telegram.storage[0] != 0)
+        return not_ours(reconfigured(size_without_position, ", without a position, and it refuses the read of its position (1B8Dh)"), t);
+    if (!position && size != default_size) {
+        if (size != size_without_position && size != size_with_demand && size != size_with_warn) return not_ours(reconfigured(size, ""), t);
+        if (size == size_without_position || size != before) {
+            probed_size_ = size;
+            return drive_.presence.begin(t.now);
+        }
+    }
+    response_size_ = position ? size_without_position : size;
     not_ours_.clear();
     drive_.presence.found();
     drive_.motion.found();
-    drive_.feedback.learn(*status, t);
+    drive_.feedback.learn(*status_in(asked.telegram, telegram), t);
     const std::size_t values = drive_.axis() == no_axis ? 0 : std::size(Limits::upids);
     reading_.begin(values, values);
     if (reads()) return;
@@ -52,8 +92,8 @@ void Start::read_next(Turn& t) {
 
 /// The limits of predefined moves: the rates of a move without own rates.
 void Start::read(const Telegram& telegram, Turn& t) {
-    if (const auto status = status_of(telegram)) drive_.feedback.learn(*status, t);
-    drive_.limits.at(reading_.at()) = telegram.size == ram_size ? std::optional(telegram.u32(default_size)) : std::nullopt;
+    if (const auto status = status_of(telegram, response_size_)) drive_.feedback.learn(*status, t);
+    drive_.limits.at(reading_.at()) = telegram.u32(response_size_);
     if (reading_.done()) ready("", t);
 }
 

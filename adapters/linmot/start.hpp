@@ -1,8 +1,10 @@
-// Start finds a drive and reads the values that moves need. Nothing is written to a drive that was just found.
+// Start finds a drive, learns the form of its response, and reads the values that moves need. Nothing is written to a drive that was just
+// found.
 #pragma once
 
 #include <string>
 
+#include "adapters/linmot/drive_exchange.hpp"
 #include "adapters/linmot/drive_part.hpp"
 #include "gateway/drive/polls.hpp"
 
@@ -13,12 +15,19 @@ public:
     using Part::Part;
 
     void probe(Turn& t);
-    void probed(const Telegram& telegram, Turn& t);
+    void probed(const Request& asked, const Telegram& telegram, Turn& t);
+    /// A probe was not answered. Returns true if it was one for the position, and the drive cannot be used without.
+    [[nodiscard]] bool probe_silent(const Request& asked, Turn& t);
     /// A probe has timed out.
     void absent(Turn& t);
-    /// The answer has a form that this gateway does not read: the drive cannot be used.
-    void not_ours(std::string why, Turn& t);
-    [[nodiscard]] std::string reconfigured(const Telegram& telegram) const;
+    /// The request for status word, StateVar and actual position: the default response, or a RAM read where this has no position.
+    [[nodiscard]] Telegram status_request() const;
+    /// Size of the data of the drive's response, as it was found last.
+    [[nodiscard]] std::size_t response_size() const noexcept { return response_size_; }
+    /// A response of this size is one of this drive. Before the drive is found, a stop is answered with one of any content.
+    [[nodiscard]] bool response_fits(std::size_t size) const noexcept;
+    /// The status in an answer to this request.
+    [[nodiscard]] std::optional<Status> status_in(const Telegram& asked, const Telegram& answer) const noexcept;
 
     [[nodiscard]] bool reads() const noexcept { return reading_.core_pending(); }
     void read_next(Turn& t);
@@ -35,11 +44,17 @@ public:
 
 private:
     void ready(std::string_view more, Turn& t);
+    /// The drive answers, and cannot be used: its link and one event say why.
+    void not_ours(std::string why, Turn& t);
+    [[nodiscard]] std::string reconfigured(std::size_t size, std::string_view why) const;
 
     drive::Reading reading_;
     std::size_t limits_open_ = 0;  ///< outstanding writes
     bool limits_untold_ = false;
     std::string not_ours_;  ///< why a drive that answers cannot be used
+    std::size_t response_size_ = default_size;
+    std::size_t probed_size_ = default_size;  ///< of the answer to the last probe
+    int position_unread_ = 0;                 ///< reads of the position without an answer, one after the other
 };
 
 }  // namespace axisgate::linmot

@@ -139,9 +139,10 @@ Telegram request48(std::uint8_t id, Main main, std::uint8_t sub, std::uint16_t i
     return t;
 }
 
-std::optional<Status> status_of(const Telegram& t) noexcept {
-    if (t.main != 0 || t.size < default_size) return std::nullopt;
-    return Status{t.storage[0], t.u16(1), t.u16(3), static_cast<std::int32_t>(t.u32(5))};
+std::optional<Status> status_of(const Telegram& t, std::size_t base) noexcept {
+    if (t.main != 0 || t.size < base) return std::nullopt;
+    const bool placed = base >= default_size;
+    return Status{t.storage[0], t.u16(1), t.u16(3), placed ? static_cast<std::int32_t>(t.u32(5)) : 0, placed};
 }
 std::optional<ConfigAnswer> config_of(const Telegram& t) noexcept {
     if (t.main != 0 || t.size != 7) return std::nullopt;

@@ -98,6 +98,7 @@ struct Status {
     std::uint16_t status = 0;
     std::uint16_t state_var = 0;
     std::int32_t position = 0;  ///< 0.1 um
+    bool placed = true;         ///< the telegram contains the position
     [[nodiscard]] std::uint8_t state() const noexcept { return static_cast<std::uint8_t>(state_var >> 8); }
     [[nodiscard]] std::uint8_t sub_state() const noexcept { return static_cast<std::uint8_t>(state_var); }
     [[nodiscard]] bool bit(int n) const noexcept { return (status >> n & 1) != 0; }
@@ -105,8 +106,16 @@ struct Status {
 inline constexpr std::size_t default_size = 9;  ///< data of the default response
 inline constexpr std::size_t ram_size = 13;     ///< the same, followed by the value of a RAM read
 inline constexpr std::size_t warn_size = 13;    ///< inferred: followed by the warn word and two bytes of unknown meaning
-/// Of a default response, or of a telegram that begins with one.
-[[nodiscard]] std::optional<Status> status_of(const Telegram& t) noexcept;
+/// Other configurations of the response, by their size; their parts have the order of the LinUDP answer of the same drives.
+inline constexpr std::size_t size_without_position = 5;  ///< ends after the StateVar
+inline constexpr std::size_t size_with_demand = 13;      ///< the demand position follows the actual position
+inline constexpr std::size_t size_with_warn = 17;        ///< after that current and warn word
+inline constexpr std::size_t value_size = 4;             ///< of a RAM read, behind the response
+/// UPID of the actual position, 0.1 um (public report: configurations of the same maker's A1100).
+inline constexpr std::uint16_t upid_position = 0x1B8D;
+/// Of a default response, or of a telegram that begins with one. `base` is the size of the drive's response: with size_without_position the
+/// status has no position.
+[[nodiscard]] std::optional<Status> status_of(const Telegram& t, std::size_t base = default_size) noexcept;
 
 /// Answer of the parameter, curve and command table groups.
 struct ConfigAnswer {

@@ -137,6 +137,8 @@ TEST(LinmotAdapter, AReconfiguredResponseIsRefusedWithItsReason) {
     ASSERT_EQ(out.links.size(), 1u);
     EXPECT_FALSE(out.links[0].online);
     EXPECT_NE(out.links[0].text.find("reconfigured"), std::string::npos);
+    ASSERT_EQ(out.notices.size(), 1u) << "it is told, too";
+    EXPECT_EQ(out.notices[0].kind, "not_served");
 }
 
 TEST(LinmotAdapter, AnswersOfOthersAreNobodys) {

@@ -94,6 +94,7 @@ double Drive::shown_current() const {
 }
 
 std::uint32_t Drive::ram(std::uint16_t upid) const {
+    if (upid == 0x1B8D) return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::lround(std::clamp(actual(), -2e9, 2e9))));
     if (upid != 0x1B93) return body_.ram(upid);
     return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::lround(shown_current())));
 }

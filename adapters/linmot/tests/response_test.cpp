@@ -4,7 +4,7 @@
 
 namespace axisgate::linmot::test {
 namespace {
-constexpr std::uint16_t actual = 0x14BE;
+constexpr std::uint16_t upid_of_rate = 0x14BE;
 
 Move to(std::int64_t target) {
     Move m;
@@ -36,7 +36,7 @@ TEST(LinmotResponse, OtherContentsAreRead) {
     for (const char* content : {"0", "1", "2", "3"}) {
         LineBench b(1, 115200, {{"response_content", content}});
         is_served(b, content);
-        EXPECT_EQ(as_integer(rate_of(b).value), std::int64_t{b.drive().ram(actual)}) << "a RAM value stands behind all of the response";
+        EXPECT_EQ(as_integer(rate_of(b).value), std::int64_t{b.drive().ram(upid_of_rate)}) << "a RAM value stands behind all of the response";
         ASSERT_TRUE(good(b.ask(to(5'000'000))));
         b.run(100ms);
         EXPECT_TRUE(good(b.ask(QuickStop{})));
@@ -83,7 +83,7 @@ TEST(LinmotResponse, ContentsThatAreSetBackAreFoundAgain) {
 TEST(LinmotResponse, WhatIsNoAnswerIsNotTakenForOne) {
     LineBench b(1, 115200, {{"unsolicited_ms", "100"}, {"foreign_ms", "70"}});
     is_served(b, "responses without a request");
-    const std::int64_t rate = b.drive().ram(actual);
+    const std::int64_t rate = b.drive().ram(upid_of_rate);
     for (int i = 0; i < 400; ++i) {
         const Result r = rate_of(b);
         ASSERT_TRUE(good(r)) << r.text;

@@ -40,7 +40,8 @@ void Start::not_ours(std::string why, Turn& t) {
     if (why != not_ours_) drive_.notice(Severity::warning, "not_served", 0, why, t);
     not_ours_ = std::move(why);
     drive_.presence.lose(t.now);
-    drive_.lost(t, not_ours_);
+    if (drive_.stops.empty()) return drive_.lost(t, not_ours_);
+    drive_.presence.report(not_ours_, t.out);  // a stop waits, and is sent next
 }
 
 std::string Start::reconfigured(std::size_t size, std::string_view why) const {

@@ -2,8 +2,8 @@
 // requests, because some sentences depend on the request before them.
 #include <algorithm>
 
-#include "gateway/core/specimen.hpp"
 #include "gateway/engine/comparison_parts.hpp"
+#include "gateway/wire/specimen_twin.hpp"
 
 namespace axisgate::comparison {
 namespace {
@@ -152,10 +152,7 @@ std::unique_ptr<Twin> make_twin(const ComparisonInput& input, const std::string&
     setup.bit_rate = input.bit_rate;
     setup.options = input.options;
     setup.options["specimen"] = specimen;
-    setup.freedoms = freedoms_of(*input.page, setup.options);
-    setup.seed = specimen_draw(0, specimen);  // as make_specimen does it
-    for (const char c : address)
-        setup.seed = specimen_draw(setup.seed, std::string_view(&c, 1));
+    specimen_setup(*input.page, setup);
     return input.family->make_twin(*input.page, setup);
 }
 

@@ -236,12 +236,16 @@ std::unique_ptr<Twin> with_common_freedoms(std::unique_ptr<Twin> twin, const Twi
     return std::make_unique<SpecimenTwin>(std::move(twin), setup);
 }
 
-std::unique_ptr<Twin> make_specimen(const Family& family, const Catalogue& page, TwinSetup setup) {
+void specimen_setup(const Catalogue& page, TwinSetup& setup) {
     setup.freedoms = freedoms_of(page, setup.options);
     const auto specimen = setup.options.find("specimen");
     setup.seed = specimen_draw(0, specimen == setup.options.end() ? "0" : specimen->second);
     for (const char c : setup.address)
         setup.seed = specimen_draw(setup.seed, std::string_view(&c, 1));  // drives of one line are not late at the same instants
+}
+
+std::unique_ptr<Twin> make_specimen(const Family& family, const Catalogue& page, TwinSetup setup) {
+    specimen_setup(page, setup);
     return with_common_freedoms(family.make_twin(page, setup), setup);
 }
 

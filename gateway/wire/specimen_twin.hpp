@@ -25,8 +25,10 @@ inline constexpr std::string_view flash_silence_ms =
     "flash_silence_ms";  ///< no frame is sent this long after a request that changed its memory
 }  // namespace common_freedom
 
-/// The twin of a drive as the specimen that `setup.options` name ("specimen", and freedoms by name). Fills setup.freedoms and setup.seed.
-/// `page` is the catalogue whose freedoms apply (the family's page or the drive's own).
+/// Fills setup.freedoms and setup.seed for the specimen that `setup.options` name ("specimen", and freedoms by name); the seed also depends
+/// on the address. `page` is the catalogue whose freedoms apply (the family's page or the drive's own).
+void specimen_setup(const Catalogue& page, TwinSetup& setup);
+/// The twin of a drive as the specimen that `setup.options` name: specimen_setup, and the common freedoms around it.
 [[nodiscard]] std::unique_ptr<Twin> make_specimen(const Family& family, const Catalogue& page, TwinSetup setup);
 /// `twin` with the common freedoms of `setup`; itself if all of them are off.
 [[nodiscard]] std::unique_ptr<Twin> with_common_freedoms(std::unique_ptr<Twin> twin, const TwinSetup& setup);

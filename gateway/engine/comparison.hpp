@@ -97,8 +97,9 @@ struct Comparison {
 
 /// The addresses whose drives send frames in this recording of a CAN line, 1 to 127.
 [[nodiscard]] std::vector<std::string> addresses_in(const Family& family, const Catalogue& page, std::span<const SeenFrame> frames);
-/// The frames with their directions. On CAN the identifiers of the drives decide if the recording does not; reports of the controller are
-/// left out. On a byte line every frame must have a direction. Uses the other members of `input`.
+/// The frames with their directions. On CAN the identifiers of the drives decide which frames are answers, unless the recording says that
+/// one was sent to the drives; "from the drives" may also be another device of the line. Reports of the controller are left out. On a byte
+/// line every frame must have a direction. Uses the other members of `input`.
 [[nodiscard]] std::vector<ComparedFrame> with_directions(const ComparisonInput& input, std::span<const SeenFrame> frames);
 /// Empty if the decoder of the family knows most messages; otherwise a fault that names the family that knows them.
 [[nodiscard]] std::string check_family(const Families& families, const ComparisonInput& input);

@@ -212,7 +212,9 @@ void Feedback::learn_status(Axis& a, int s, Turn& t) {
 
 void Feedback::poll_answered(const Poll& p, const Reply& reply, Turn& t) {
     Axis& a = drive_.axes[p.axis];
-    if (reply.quit == quit::not_initialised || (reply.quit == quit::not_executable && t.now < drive_.busy_until)) return;  // not yet
+    // Not yet. Models without a following error refuse it with the same number, and it is asked once.
+    const bool busy = reply.quit == quit::not_executable && t.now < drive_.busy_until && p.code != code::following_error;
+    if (reply.quit == quit::not_initialised || busy) return;
     if (p.code == code::axis_parameter) drive_.demands.parameter_answered(a, p.parameter, reply, t.now);
     if (reply.quit != 0) return poll_refused(a, p, reply, t);
     int before = -1;

@@ -46,14 +46,18 @@ const Result* SpecimenDay::ask(CommandBody body, bool until_done, Duration limit
 }
 
 const Result* SpecimenDay::ask_with_remedy(const CommandBody& body, Duration limit, bool until_done) {
+    constexpr int most_times = 5;
     const Result* r = ask(body, until_done, limit);
-    if (!r || good(*r)) return r;
-    for (const CatalogueCommand& c : e.catalogue->commands()) {
-        if (c.name.empty() || !c.arguments.empty() || r->text.find(c.name) == std::string::npos) continue;
-        const Result* remedy = ask(Action{c.name, "", {}}, true, limit);
-        EXPECT_TRUE(remedy && good(*remedy)) << "the answer names " << c.name << ", and that: " << in_short(remedy) << in_words();
-        world->run_for(1s + slowness());
-        return ask(body, until_done, limit);
+    for (int times = 1; r && !good(*r) && times < most_times; ++times) {
+        EXPECT_FALSE(r->text.empty()) << "an answer that says no has a reason: " << in_short(r) << in_words();
+        if (r->outcome == Outcome::failed && !std::holds_alternative<Enable>(body)) return r;  // it may have been carried out
+        for (const CatalogueCommand& c : e.catalogue->commands()) {
+            if (c.name.empty() || !c.arguments.empty() || r->text.find(c.name) == std::string::npos) continue;
+            (void)ask(Action{c.name, "", {}}, true, limit);
+            break;
+        }
+        world->run_for(500ms + slowness() / 4);
+        r = ask(body, until_done, limit);
     }
     return r;
 }
@@ -119,9 +123,13 @@ void SpecimenDay::told_as_not_done(const Result& r) {
 
 void SpecimenDay::is_found_and_stays_served() {
     if (!served()) return;
+    // A specimen that restarts, or that another master stops, is lost once; it is told, and the drive is found again.
+    const bool leaves = freedom(values, "restart_after_ms") != 0 || freedom(values, "stopped_by_other_s") != 0;
     for (int i = 0; i < 100; ++i) {
         world->run_for(100ms);
-        ASSERT_TRUE(online()) << "it was lost after " << i << " tenths of a second at rest" << in_words();
+        if (online()) continue;
+        ASSERT_TRUE(leaves) << "it was lost after " << i << " tenths of a second at rest" << in_words();
+        ASSERT_TRUE(found()) << "it was lost and is not found again" << in_words();
     }
     for (const Event& v : world->events)
         EXPECT_EQ(v.text.find("two "), std::string::npos) << "a late or doubled answer is not another drive: " << v.text << in_words();

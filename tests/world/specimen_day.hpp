@@ -56,7 +56,8 @@ private:
     [[nodiscard]] bool powered();
     [[nodiscard]] bool rests(Duration limit);
     const Result* ask(CommandBody body, bool until_done, Duration limit);
-    /// Asks; if the answer is a refusal that names an action of the family, that action is carried out, and it asks once more.
+    /// Asks as a person does: an order that is refused is repeated a few times, after the action that the answer names, or a pause. One
+    /// whose outcome is not known is repeated only if it is an Enable.
     const Result* ask_with_remedy(const CommandBody& body, Duration limit, bool until_done = true);
     [[nodiscard]] static Move to(std::int64_t target, Move::Kind kind);
     void told_as_not_done(const Result& r);

@@ -10,6 +10,7 @@
 #include "adapters/linmot/tests/vectors.hpp"
 #include "adapters/linmot/twin/device.hpp"
 #include "adapters/linmot/twin/twin.hpp"
+#include "gateway/core/specimen.hpp"
 #include "gateway/wire/twin_bus.hpp"
 
 namespace axisgate::linmot::test {
@@ -53,6 +54,7 @@ public:
             t.options = setup.options;
             for (const auto& [k, v] : options)
                 t.options[k] = v;
+            t.freedoms = freedoms_of(page(), t.options);
             bus->add(d.id, twin::make_twin(page(), t), {}, now);
         }
         Out out;

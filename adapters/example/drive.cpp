@@ -42,45 +42,20 @@ bool Drive::learn_rate(const Telegram& answer) {
     return rate != nullptr;
 }
 
-/// The target of a positioning, from any acknowledged order. All other orders to the motor, and a new zero, end its meaning.
-bool Drive::learn_order(const Telegram& answer) {
-    const auto& item = answer.item;
-    if (answer.kind != Kind::value || answer.axis < 1 || answer.axis > channels) return false;
-    if (item != "R20" && item != "R21" && item != "R22" && item != "R23" && item != "R25") return false;
-    Positioning& p = positionings_[static_cast<std::size_t>(answer.axis) - 1];
-    p = {};
-    if (item == "R21") p.target = parse_whole(answer.text, INT64_MIN, INT64_MAX);
-    return true;
-}
-
-/// The drive may refresh its bits late, and then they are those of the motion before. The demand is not late: a positioning whose demand is
-/// not at its target has not ended. If the demand stays where it is for `still` states, something else has ended it.
-void Drive::learn_motion(int channel, unsigned bits, std::int64_t demand) {
-    constexpr int still = 20;
-    AxisFeedback& fb = axis(channel);
-    Positioning& p = positionings_[static_cast<std::size_t>(channel) - 1];
-    if (fb.fault) p = {};
-    p.unchanged = demand == p.demand ? p.unchanged + 1 : 0;
-    p.demand = demand;
-    const bool under_way = p.target && demand != *p.target;
-    fb.moving = bits & 2 || (under_way && p.unchanged < still);
-    fb.target_reached = bits & 4 && !under_way;
-}
-
 /// S00: "bits,position,velocity,demand,fault". Bits: 0 on, 1 in motion, 2 target reached, 3 referenced.
 int Drive::learn(const Telegram& answer) {
     unsigned bits = 0, fault = 0;
     long long position = 0, velocity = 0, demand = 0;
     if (learn_rate(answer)) return answer.axis;
-    if (learn_order(answer)) return 0;
     if (answer.item != "S00" || std::sscanf(answer.text.c_str(), "%u,%lld,%lld,%lld,%u", &bits, &position, &velocity, &demand, &fault) != 5)
         return 0;
     AxisFeedback& fb = axis(answer.axis);
     fb.power = bits & 1 ? AxisFeedback::Power::on : AxisFeedback::Power::off;
+    fb.moving = bits & 2;
+    fb.target_reached = bits & 4;
     fb.referenced = bits & 8;
     fb.homing_attained = fb.homing_attained && fb.referenced;
     fb.fault = fault != 0;
-    learn_motion(answer.axis, bits, demand);
     fb.error_code = static_cast<std::uint16_t>(fault);
     fb.native_status = bits;
     fb.position = position;

@@ -2,9 +2,6 @@
 // of an axis, motion.cpp the commands.
 #pragma once
 
-#include <array>
-#include <optional>
-
 #include "adapters/example/wire.hpp"
 #include "gateway/drive/dialogue.hpp"
 
@@ -26,8 +23,6 @@ private:
     [[nodiscard]] Telegram poll(int channel) const override { return read(channel, "S00"); }
     [[nodiscard]] int learn(const Telegram& answer) override;
     [[nodiscard]] bool learn_rate(const Telegram& answer);
-    [[nodiscard]] bool learn_order(const Telegram& answer);
-    void learn_motion(int channel, unsigned bits, std::int64_t demand);
     // motion.cpp
     [[nodiscard]] Telegram stop(const Command& command) const override;
     [[nodiscard]] std::string plan(Job& job, Reason& reason) const override;
@@ -39,14 +34,7 @@ private:
 
     [[nodiscard]] Telegram read(int channel, std::string item) const;
     [[nodiscard]] Telegram write(int channel, std::string item, std::int64_t value) const;
-    /// A positioning that the drive has accepted, until another order ends it.
-    struct Positioning {
-        std::optional<std::int64_t> target;  ///< where its demand will be at its end
-        std::int64_t demand = 0;             ///< of the state before
-        int unchanged = 0;                   ///< states with this demand, one after the other
-    };
     int address_;
-    std::array<Positioning, channels> positionings_;
 };
 
 }  // namespace axisgate::example

@@ -154,50 +154,6 @@ TEST_F(Bench, ARelativeMoveReadsThePlaceFirst) {
     EXPECT_EQ(results[0].outcome, Outcome::accepted);
 }
 
-TEST_F(Bench, BitsOfTheMotionBeforeDoNotEndTheNewOne) {
-    const auto state = [&](const std::string& text) {
-        while (sent.back().item != "S00" || sent.back().axis != 1) {
-            if (sent.back().item == "S00") answer("S00", "1,700,0,700,0", 3);
-            pass(50ms);
-        }
-        adapter.on_frame(frame(text_of({5, 1, "S00", Telegram::Kind::value, text}, false)), now, out);
-        EXPECT_FALSE(out.feedback.empty());
-        const AxisFeedback fb = out.feedback.empty() ? AxisFeedback{} : out.feedback.back().value;
-        take();
-        return fb;
-    };
-    Move m;
-    m.target = 5000;
-    command(1, m);
-    answer("R21", "5000");
-    for (const std::string shown : {"5,700,0,700,0", "5,2000,4000,2100,0"}) {  // 4: at its target, the one before
-        const AxisFeedback fb = state(shown);
-        EXPECT_TRUE(fb.moving) << shown;
-        EXPECT_FALSE(fb.target_reached) << shown;
-    }
-    EXPECT_TRUE(state("3,4990,50,5000,0").moving);
-    const AxisFeedback end = state("5,5000,0,5000,0");
-    EXPECT_FALSE(end.moving);
-    EXPECT_TRUE(end.target_reached);
-    command(2, m);
-    answer("R21", "5000");
-    EXPECT_TRUE(state("5,5000,0,5000,0").target_reached) << "a motion to where it is";
-    m.target = 0;
-    command(3, m);
-    answer("R21", "0");
-    EXPECT_TRUE(state("3,4000,-4000,3900,0").moving);
-    command(4, Halt{});
-    answer("R23", "0");
-    EXPECT_FALSE(state("1,3000,0,3000,0").moving) << "a halt leaves it before its target";
-    command(5, m);
-    answer("R21", "0");
-    for (int i = 0; i < 20; ++i)
-        (void)state("1,3000,0,3000,0");
-    const AxisFeedback ended = state("1,3000,0,3000,0");
-    EXPECT_FALSE(ended.moving) << "its demand does not change any more";
-    EXPECT_FALSE(ended.target_reached);
-}
-
 TEST_F(Bench, AStopGoesBehindTheExchangeInProgressAndEndsWhatWaitsOfItsAxis) {
     Move m;
     m.target = 5;

@@ -11,8 +11,7 @@ using Phase = Presence::Phase;
 using namespace std::chrono_literals;
 
 void Line::take(const LineSetup& setup, Instant now) {
-    // A gateway that has restarted does not say so on a line that stayed up: only a probe finds it. A probe costs no more than a poll.
-    Bus::take(setup, {.reply_timeout = 300ms, .poll_period = 50ms, .pause_max = 500ms});
+    Bus::take(setup, {.reply_timeout = 300ms, .poll_period = 50ms});
     stale_after = setup.timing.stale_after > Duration::zero() ? setup.timing.stale_after : Duration(3s);
     if (next == 0) next = static_cast<std::uint64_t>(std::max<std::int64_t>(1, now.time_since_epoch() / 1ms));
 }

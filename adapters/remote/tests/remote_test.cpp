@@ -216,20 +216,6 @@ TEST_F(Bench, WhoIsToldToBeGoneIsOfflineAtOnceAndHisCommandsHaveFailed) {
     EXPECT_TRUE(orders().empty()) << "nothing moves because it is back";
 }
 
-TEST_F(Bench, AGatewayThatWasSilentForLongIsFoundWithinASecond) {
-    come_up();
-    pass(60s);
-    ASSERT_FALSE(links.back().online);
-    for (const Duration phase : {0ms, 300ms, 600ms, 900ms}) {
-        pass(phase);
-        sent.clear();
-        pass(1s);
-        EXPECT_FALSE(sent.empty()) << "it is asked at least once in each second";
-    }
-    say(Telegram::Kind::state, sent.back().number, body_of(standing()));
-    EXPECT_TRUE(links.back().online);
-}
-
 TEST_F(Bench, AStopDoesNotWaitForACommandsAnswerAndEndsAMotionThatWaits) {
     come_up();
     ask(move_of(Move::Kind::absolute, 100));

@@ -8,6 +8,11 @@
 #include <cstdlib>
 
 namespace axisgate::cia402_drive {
+namespace {
+/// In the node's object dictionary.
+Address address_in_node(const Step& s, std::size_t axis) { return s.literal ? s.address : of_axis(s.address, axis); }
+}  // namespace
+
 using drive::Want;
 using Phase = Presence::Phase;
 
@@ -131,7 +136,7 @@ Axis::News Axis::answered(const Ask& ask, const canopen::SdoEnd& end, Turn& t) {
             return News::none;
         case Ask::Why::step:
             if (job_ && job_->command.ticket == ask.ticket && job_->at < job_->steps.size() &&
-                asked(job_->steps[job_->at]) == ask.step.address)
+                address_in_node(job_->steps[job_->at], place_) == ask.step.address)
                 return step_done(*job_, end, t);
             if (ask.step.kind == Step::Kind::write) rates.written(of_first_axis(ask.step.address), 0, false, t);  // of a job that has ended
             return News::none;
@@ -142,7 +147,6 @@ Axis::News Axis::answered(const Ask& ask, const canopen::SdoEnd& end, Turn& t) {
             return News::none;
     }
 }
-Address Axis::asked(const Step& s) const { return s.literal ? s.address : of_axis(s.address, place_); }
 
 void Axis::unanswered(const Ask& ask, Turn& t) {
     if (ask.step.kind == Step::Kind::write) rates.written(of_first_axis(ask.step.address), 0, false, t);  // the drive may have accepted it
@@ -244,21 +248,6 @@ Axis::News Axis::step_done(Job& job, const canopen::SdoEnd& end, Turn& t) {
     return finish(done, t);
 }
 
-/// An Enable was planned by a status word that was out of date: the drive has left its quick stop by itself (605Ah below 5), or has begun
-/// one. The steps begin again, by the state that was just read.
-bool Axis::plans_anew(Job& job, const Step& s, unsigned sw, Instant now) {
-    if (!std::holds_alternative<Enable>(job.command.body) || s.address != object::statusword || job.planned_anew) return false;
-    const bool fallen = s.want == 0x27 && (sw & 0x4Fu) == 0x40, quick = (s.want == 0x21 || s.want == 0x23) && (sw & 0x6Fu) == 0x07;
-    if (!fallen && !quick) return false;
-    Job again;
-    again.command = job.command;
-    again.planned_anew = true;
-    Reason reason = Reason::none;
-    if (!plan(node, known, place_, again, now, reason).empty()) return false;
-    job = std::move(again);
-    return true;
-}
-
 /// The value is not the expected one, and the step has not ended: read it again, or let the job fail.
 bool Axis::still_waits(Job& job, const Step& s, const canopen::SdoEnd& end, Turn& t) {
     if (s.away_from) {
@@ -267,7 +256,7 @@ bool Axis::still_waits(Job& job, const Step& s, const canopen::SdoEnd& end, Turn
     } else if (met(known, job, s, end, t.now)) {
         return false;
     }
-    if (plans_anew(job, s, static_cast<unsigned>(canopen::low_first(end.data)), t.now)) return true;
+    if (plan_anew(node, known, place_, job, s, static_cast<unsigned>(canopen::low_first(end.data)), t.now)) return true;
     if (job.give_up == never) job.give_up = t.now + s.patience;
     job.wait_until = t.now + std::chrono::milliseconds(10);
     if (t.now < job.give_up) return true;

@@ -37,8 +37,6 @@ public:
     void first_read(const Step& step, const canopen::SdoEnd& end);
     void set_up(std::vector<Step>& steps);
     void want_pdos(std::vector<PdoSetUp::Wanted>& wanted);
-    /// The parts of the profile that the drive does not have, and their replacement; empty: none.
-    [[nodiscard]] std::string lacks() const;
     void made_ready(Instant now);
     void begin_anew() noexcept { new_ = true; }
     [[nodiscard]] bool is_new() const noexcept { return new_; }  ///< must be read and set up before commands are carried out
@@ -97,12 +95,10 @@ private:
     void take_back(CommandBody body, void (*planned)(const AxisKnown&, Job&));
     News step_done(Job& job, const canopen::SdoEnd& end, Turn& t);
     void drop(const Job& job) noexcept;
-    [[nodiscard]] bool plans_anew(Job& job, const Step& step, unsigned statusword, Instant now);
     [[nodiscard]] bool still_waits(Job& job, const Step& step, const canopen::SdoEnd& end, Turn& t);
     News finish(Job& job, Turn& t);
     void moves_now(const CommandBody& body, std::int64_t here, Turn& t);
     [[nodiscard]] static Step here(const Job& job);
-    [[nodiscard]] Address asked(const Step& step) const;  ///< the address in the node's object dictionary
     [[nodiscard]] bool read_value(const Job& job, const ReadParameter& read, Value& value, Turn& t);
     [[nodiscard]] std::string native_text(const Job& job) const;
     void written(const WriteParameter& to);

@@ -61,6 +61,12 @@ struct AxisKnown {
 
 /// Returns an empty text, or why the command is refused. `axis` is its place on the node.
 [[nodiscard]] std::string plan(const Node& node, const AxisKnown& known, std::size_t axis, Job& job, Instant now, Reason& reason);
+/// An Enable was planned by a status word that was out of date: the drive has left its quick stop by itself (605Ah below 5), or has begun
+/// one. True: the steps begin again, by the state that was just read; once for each job.
+[[nodiscard]] bool plan_anew(const Node& node, const AxisKnown& known, std::size_t axis, Job& job, const Step& step, unsigned statusword,
+                             Instant now);
+/// The parts of the profile that the drive does not have, and their replacement; empty: none.
+[[nodiscard]] std::string lacks(const AxisKnown& known);
 /// A stop is planned when it is sent, by the state of the axis at that time.
 void plan_stop(const AxisKnown& known, Job& job);
 /// `cycle` is the time between two targets. Up to 255 ms it is given in ms, above in units of 10 ms.

@@ -142,6 +142,19 @@ std::string plan(const Node& node, const AxisKnown& known, std::size_t axis, Job
     return fmt::format("a {} on this line has no {}", noun, name_of(body));
 }
 
+bool plan_anew(const Node& node, const AxisKnown& known, std::size_t axis, Job& job, const Step& s, unsigned sw, Instant now) {
+    if (!std::holds_alternative<Enable>(job.command.body) || s.address != object::statusword || job.planned_anew) return false;
+    const bool fallen = s.want == 0x27 && (sw & 0x4Fu) == 0x40, quick = (s.want == 0x21 || s.want == 0x23) && (sw & 0x6Fu) == 0x07;
+    if (!fallen && !quick) return false;
+    Job again;
+    again.command = job.command;
+    again.planned_anew = true;
+    Reason reason = Reason::none;
+    if (!plan(node, known, axis, again, now, reason).empty()) return false;
+    job = std::move(again);
+    return true;
+}
+
 void plan_stop(const AxisKnown& known, Job& job) {
     const bool may_be_on = known.fb.power == AxisFeedback::Power::on || (known.cw & 0x0Fu) == on_word;
     if (std::holds_alternative<Disable>(job.command.body)) {

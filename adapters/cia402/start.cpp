@@ -171,7 +171,7 @@ void Start::done(Turn& t) {
     if (const std::string fault = differs(expected_, reported_); !fault.empty())
         drive_.notice(Severity::warning, "identity", 0, fmt::format("{}: {}", node.setup.name, fault), t);
     for (const auto& a : drive_.axes)
-        if (const std::string text = a->lacks(); a->is_new() && !text.empty())
+        if (const std::string text = lacks(a->known); a->is_new() && !text.empty())
             drive_.notice(Severity::info, "drive_lacks", 0, fmt::format("{}: {}", node.setup.name, text), t);
     drive_.made_ready(t);
 }
@@ -285,7 +285,7 @@ void Axis::want_pdos(std::vector<PdoSetUp::Wanted>& wanted) {
     }
 }
 
-std::string Axis::lacks() const {
+std::string lacks(const AxisKnown& known) {
     if (!known.profile) return {};
     std::string text;
     const auto add = [&](bool missing, std::string_view said) {

@@ -1,5 +1,5 @@
-// Fuzz target for `axisgate decode` and `axisgate compare`: a recording in any of its forms, through every family's decoder. Laws: one line per message, frames
-// that fit their kind, and frames that were read can be written and read again.
+// Fuzz target for `axisgate decode` and `axisgate compare`: a recording in any of its forms, through every family's decoder. Laws: one line
+// per message, frames that fit their kind, and frames that were read can be written and read again.
 #include "gateway/runtime/recording.hpp"
 
 #include "gateway/wire/frame_export.hpp"

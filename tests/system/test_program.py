@@ -18,7 +18,8 @@ def test_version_help_and_wrong_usage():
     text = run("help", check=0)[1]
     for word in ("serve", "twin", "families", "catalogue", "specimen", "rehearse", "decode", "compare", "check", "backup", "restore", "health", "bundle", "pki", "version"):
         assert word in text
-    for arguments in ((), ("nonsense",), ("serve", "--nonsense"), ("catalogue",), ("catalogue", "nobody"), ("decode", "nobody"), ("compare", "uim342"), ("compare", "uim342", "/nowhere"), ("twin", "uim342"),
+    for arguments in ((), ("nonsense",), ("serve", "--nonsense"), ("catalogue",), ("catalogue", "nobody"), ("decode", "nobody"), ("compare", "uim342"),
+                      ("compare", "uim342", "/nowhere"), ("twin", "uim342"),
                       ("twin", "uim342", "--line", "twin"), ("twin", "uim342", "--line", "tcp-listen:127.0.0.1:0", "--address", "4"),
                       ("twin", "mcode", "--line", "tcp-listen:127.0.0.1:0", "--option", "produkt=LMM"),
                       ("twin", "mcode", "--line", "tcp-listen:127.0.0.1:0", "--option", "product=LMX"),

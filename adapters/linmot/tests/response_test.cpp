@@ -36,7 +36,8 @@ TEST(LinmotResponse, OtherContentsAreRead) {
     for (const char* content : {"0", "1", "2", "3"}) {
         LineBench b(1, 115200, {{"response_content", content}});
         is_served(b, content);
-        EXPECT_EQ(as_integer(rate_of(b).value), std::int64_t{b.drive().ram(upid_of_rate)}) << "a RAM value stands behind all of the response";
+        EXPECT_EQ(as_integer(rate_of(b).value), std::int64_t{b.drive().ram(upid_of_rate)})
+            << "a RAM value stands behind all of the response";
         ASSERT_TRUE(good(b.ask(to(5'000'000))));
         b.run(100ms);
         EXPECT_TRUE(good(b.ask(QuickStop{})));

@@ -3,6 +3,8 @@
 // Never allocates, and never ticks but for a specimen whose shaft is not at its pulses (axis_shaft.cpp).
 #include "adapters/uim342/twin/axis.hpp"
 
+#include "adapters/uim342/twin/axis_shaft.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -28,36 +30,28 @@ std::int32_t wrap_i32(double pulses) noexcept {
     return static_cast<std::int32_t>(inside);
 }
 
-double Axis::counter(Instant now) const noexcept { return mechanics_.closed_loop && lags() ? real_.shown() : seat(now); }
-
-/// The counter without the noise of an encoder.
-double Axis::seat(Instant now) const noexcept {
-    if (!mechanics_.closed_loop) return profile_.at(now).position;
-    return coasting_ ? coast_.at(now).position : held_ ? held_at_ : lags() ? real_.load() : profile_.at(now).position;
-}
-
 double Axis::speed(Instant now) const noexcept {
     if (!mechanics_.closed_loop) return profile_.at(now).velocity;
-    return coasting_ ? coast_.at(now).velocity : held_ ? 0 : lags() ? real_.velocity() : profile_.at(now).velocity;
+    return coasting_ ? coast_.at(now).velocity : held_ ? 0 : AxisShaft::lags(*this) ? real_.velocity() : profile_.at(now).velocity;
 }
 
-std::int32_t Axis::position(Instant now) const noexcept { return wrap_i32(counter(now)); }
+std::int32_t Axis::position(Instant now) const noexcept { return wrap_i32(AxisShaft::counter(*this, now)); }
 
-std::int32_t Axis::place(Instant now) const noexcept { return wrap_i32(seat(now)); }
+std::int32_t Axis::place(Instant now) const noexcept { return wrap_i32(AxisShaft::seat(*this, now)); }
 
-std::int32_t Axis::relative(Instant now) const noexcept { return wrap_i32(std::round(counter(now)) - relative_zero_); }
+std::int32_t Axis::relative(Instant now) const noexcept { return wrap_i32(std::round(AxisShaft::counter(*this, now)) - relative_zero_); }
 
 MotionState Axis::shaft(Instant now) const noexcept {
     if (coasting_) return coast_.at(now);
     if (held_) return {held_at_, 0};
-    if (lags()) return {real_.load() + slip_, out_of_step_ ? 0 : real_.velocity()};
+    if (AxisShaft::lags(*this)) return {real_.load() + slip_, out_of_step_ ? 0 : real_.velocity()};
     MotionState s = profile_.at(now);
     s.position += slip_;
     return s;
 }
 
 double Axis::turns(Instant now) const noexcept {
-    return turns_zero_ + mechanics_.direction * (shaft(now).position - turns_from_) / shaft_per_turn();
+    return turns_zero_ + mechanics_.direction * (shaft(now).position - turns_from_) / mechanics_.shaft_per_turn();
 }
 
 /// Before the numbering or the resolution changes; the new `turns_from_` is the shaft's place after it.
@@ -76,7 +70,7 @@ void Axis::end_coast(Instant now) noexcept {
     } else {
         slip_ = there - profile_.end_position();
     }
-    fit_shaft(now);
+    AxisShaft(*this).fit(now);
 }
 
 int Axis::reverse_direction(Instant now) const noexcept {
@@ -105,7 +99,7 @@ void Axis::power_up(std::int32_t position, Instant now) noexcept {
     stall_armed_ = speed_armed_ = give_up_ = arrival_pending_ = false;
     stall_at_ = too_fast_at_ = watch_at_ = deadline_ = never;
     was_on_ = false;
-    fit_shaft(now);
+    AxisShaft(*this).fit(now);
     turns_from_ = shaft(now).position;
 }
 
@@ -134,7 +128,7 @@ void Axis::configure(const Mechanics& mechanics, Instant now) noexcept {
 void Axis::set_driver(bool on, Instant now) noexcept {
     if (on == driver_on_) return;
     follow(now);
-    if (on) drift_ends(now);
+    if (on) AxisShaft(*this).drift_ends(now);
     driver_on_ = on;
     was_on_ = was_on_ || on;
     lost_ = 0;
@@ -142,14 +136,14 @@ void Axis::set_driver(bool on, Instant now) noexcept {
     if (!on) {
         const MotionState free = shaft(now);
         if (const int d = sign_of(profile_.at(now).velocity); d != 0) last_direction_ = d;
-        const double there = std::round(seat(now));
-        if (out_of_step_) slip_poles(now);
+        const double there = std::round(AxisShaft::seat(*this, now));
+        if (out_of_step_) AxisShaft(*this).slip_poles(now);
         if (held_ && !mechanics_.closed_loop) slip_ = held_at_ - there;
         rest_at(there);
         if (held_ && mechanics_.closed_loop) held_at_ = there;
         if (free.velocity != 0) {
             coasting_ = true;
-            coast_ = Profile::stop(now, free, friction * shaft_per_turn(), 0);
+            coast_ = Profile::stop(now, free, friction * mechanics_.shaft_per_turn(), 0);
             if (mechanics_.closed_loop) state_ = State::coast;
         }
         stall_armed_ = speed_armed_ = give_up_ = arrival_pending_ = false;
@@ -169,7 +163,7 @@ MotionState Axis::begin(Instant now) noexcept {
     }
     arrival_pending_ = give_up_ = overloaded_ = false;
     stall_armed_ = speed_armed_ = true;
-    relative_zero_ = std::round(counter(now));
+    relative_zero_ = std::round(AxisShaft::counter(*this, now));
     if (state_ == State::idle) {
         lost_ = 0;
         started_at_ = relative_zero_;
@@ -218,7 +212,7 @@ void Axis::move_to(Instant now, std::int32_t target, double speed, const Values&
 
 void Axis::move_by(Instant now, std::int64_t displacement, double speed, const Values& values) noexcept {
     const MotionState from = begin(now);
-    start_move(now, std::round(counter(now)) + static_cast<double>(displacement), speed, values, from);
+    start_move(now, std::round(AxisShaft::counter(*this, now)) + static_cast<double>(displacement), speed, values, from);
 }
 
 void Axis::run_stop(State state, double rate, Instant now) noexcept {
@@ -251,7 +245,7 @@ void Axis::renumber(double pulses) noexcept {
 void Axis::set_origin(Instant now) noexcept {
     follow(now);
     if (!mechanics_.closed_loop) keep_turns(now);
-    renumber(std::round(counter(now)));
+    renumber(std::round(AxisShaft::counter(*this, now)));
     relative_zero_ = 0;
     if (!mechanics_.closed_loop) {  // where the pulses are is the new zero; what was lost before lies behind it
         slip_ = 0;
@@ -277,7 +271,7 @@ Axis::Event Axis::hold(bool held, Instant now) noexcept {
     if (mechanics_.closed_loop)
         real_.set(held_at_, now);
     else
-        fit_shaft(now);
+        AxisShaft(*this).fit(now);
     plan(now);
     if (!arrival_pending_) return Event::none;
     arrival_pending_ = false;
@@ -314,7 +308,7 @@ void Axis::displace(double position, Instant now) noexcept {
     }
     held_at_ = there;
     was_on_ = false;  // it stands where the hand has left it
-    fit_shaft(now);
+    AxisShaft(*this).fit(now);
 }
 
 Axis::Event Axis::stall(Instant at) noexcept {
@@ -354,7 +348,7 @@ Axis::Event Axis::step(Instant at) noexcept {
     if (const int d = profile_.last_direction(); d != 0) last_direction_ = d;
     double there = profile_.end_position();
     if (give_up_ && held_ && mechanics_.closed_loop) there = held_at_ = std::round(held_at_);
-    if (give_up_ && mechanics_.closed_loop && lags()) there = std::round(real_.load());
+    if (give_up_ && mechanics_.closed_loop && AxisShaft::lags(*this)) there = std::round(real_.load());
     give_up_ = false;
     rest_at(there);
     arrival_pending_ = target && held_ && mechanics_.closed_loop && std::round(held_at_) != there;
@@ -377,9 +371,9 @@ void Axis::plan(Instant now) noexcept {
             stall_at_ = profile_.first_departure(now, started_at_, left / apart);
         }
     }
-    if (speed_armed_ && !held_) too_fast_at_ = profile_.first_faster(now, most_turns_per_s * shaft_per_turn() * (1 + 1e-9));
+    if (speed_armed_ && !held_) too_fast_at_ = profile_.first_faster(now, most_turns_per_s * mechanics_.shaft_per_turn() * (1 + 1e-9));
     constexpr Duration watch = std::chrono::milliseconds(5);
-    if (free_.most_acceleration != 0 && mechanics_.closed_loop && stall_armed_ && lags()) watch_at_ = now + watch;
+    if (free_.most_acceleration != 0 && mechanics_.closed_loop && stall_armed_ && AxisShaft::lags(*this)) watch_at_ = now + watch;
     deadline_ = std::min({deadline_, stall_at_, too_fast_at_, watch_at_});
 }
 

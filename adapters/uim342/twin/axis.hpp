@@ -46,6 +46,7 @@ public:
         double pulses_per_turn = 3200;    ///< that the motor takes: 200 steps, each divided by the microstepping
         double feedback_per_turn = 3200;  ///< that the drive makes of the fitted encoder's turn; another number is a wrong QE or MT
         int direction = 1;                ///< of the shaft for a growing counter: +1 counter-clockwise, facing the shaft [L771]
+        [[nodiscard]] double shaft_per_turn() const noexcept { return closed_loop ? feedback_per_turn : pulses_per_turn; }
     };
 
     /// `seed` is that of the encoder's noise.
@@ -116,17 +117,8 @@ private:
     void plan(Instant now) noexcept;
     void end_coast(Instant now) noexcept;
     void keep_turns(Instant now) noexcept;
-    [[nodiscard]] double shaft_per_turn() const noexcept {
-        return mechanics_.closed_loop ? mechanics_.feedback_per_turn : mechanics_.pulses_per_turn;
-    }
-    [[nodiscard]] double counter(Instant now) const noexcept;
-    [[nodiscard]] double seat(Instant now) const noexcept;
-    [[nodiscard]] bool lags() const noexcept { return real_.differs() && !held_ && !coasting_; }
-    void follow_pulses(Instant now) noexcept;
-    void slip_poles(Instant now) noexcept;
-    void fit_shaft(Instant now) noexcept;
-    void drift_ends(Instant now) noexcept;
 
+    friend class AxisShaft;
     // The specimen: `real_` is the shaft without `slip_`.
     ShaftFreedoms free_;
     std::uint64_t seed_ = 0;

@@ -4,15 +4,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adapters/uim342/twin/axis.hpp"
+#include "adapters/uim342/twin/axis_shaft.hpp"
 
 namespace axisgate::uim342::twin {
 
-/// The shaft rests at the end of the profile.
-void Axis::fit_shaft(Instant now) noexcept {
-    real_.set(profile_.at(now).position, now);
-    out_of_step_ = overloaded_ = false;
-    followed_ = now;
+double AxisShaft::seat(const Axis& a, Instant now) noexcept {
+    if (!a.mechanics_.closed_loop) return a.profile_.at(now).position;
+    return a.coasting_ ? a.coast_.at(now).position : a.held_ ? a.held_at_ : lags(a) ? a.real_.load() : a.profile_.at(now).position;
+}
+
+void AxisShaft::fit(Instant now) noexcept {
+    a_.real_.set(a_.profile_.at(now).position, now);
+    a_.out_of_step_ = a_.overloaded_ = false;
+    a_.followed_ = now;
 }
 
 void Axis::follow(Instant now) noexcept {
@@ -21,54 +25,53 @@ void Axis::follow(Instant now) noexcept {
         followed_ = now;
         return;
     }
-    if (driver_on_) return follow_pulses(now);
+    if (driver_on_) return AxisShaft(*this).follow_pulses(now);
     real_.advance_without_power(now);
     followed_ = now;
 }
 
-void Axis::follow_pulses(Instant now) noexcept {
-    const auto demand = [this](Instant t) { return profile_.at(t).position; };
-    if (free_.most_acceleration == 0) {
-        real_.advance(now, demand);
-        followed_ = now;
+void AxisShaft::follow_pulses(Instant now) noexcept {
+    const auto demand = [this](Instant t) { return a_.profile_.at(t).position; };
+    if (a_.free_.most_acceleration == 0) {
+        a_.real_.advance(now, demand);
+        a_.followed_ = now;
         return;
     }
-    if (now - followed_ > Shaft::longest_gap) followed_ = now - Shaft::longest_gap;
+    if (now - a_.followed_ > Shaft::longest_gap) a_.followed_ = now - Shaft::longest_gap;
     for (;;) {
-        const Instant next = time_zero + ((followed_ - time_zero) / Shaft::step + 1) * Shaft::step;
+        const Instant next = time_zero + ((a_.followed_ - time_zero) / Shaft::step + 1) * Shaft::step;
         if (next > now) return;
-        followed_ = next;
-        if (out_of_step_) {
-            real_.set(real_.position(), next);
-            if (profile_.at(next).velocity == 0) slip_poles(next);
+        a_.followed_ = next;
+        if (a_.out_of_step_) {
+            a_.real_.set(a_.real_.position(), next);
+            if (a_.profile_.at(next).velocity == 0) slip_poles(next);
             continue;
         }
-        real_.advance(next, demand);
-        const bool saturated = real_.force() >= 1;
-        if (mechanics_.closed_loop)
-            overloaded_ = overloaded_ || (saturated && stall_armed_ && real_.lack() >= mechanics_.tolerance);
+        a_.real_.advance(next, demand);
+        const bool saturated = a_.real_.force() >= 1;
+        if (a_.mechanics_.closed_loop)
+            a_.overloaded_ = a_.overloaded_ || (saturated && a_.stall_armed_ && a_.real_.lack() >= a_.mechanics_.tolerance);
         else
-            out_of_step_ = saturated && real_.lack() > 2 * mechanics_.pulses_per_turn / 200;
+            a_.out_of_step_ = saturated && a_.real_.lack() > 2 * a_.mechanics_.pulses_per_turn / 200;
     }
 }
 
-void Axis::slip_poles(Instant now) noexcept {
-    const double pole = 4 * mechanics_.pulses_per_turn / 200;
-    const double behind = std::round((profile_.at(now).position - real_.position()) / pole) * pole;
-    slip_ -= behind;
-    real_.set(real_.position() + behind, now);
-    out_of_step_ = false;
+void AxisShaft::slip_poles(Instant now) noexcept {
+    const double pole = 4 * a_.mechanics_.pulses_per_turn / 200;
+    const double behind = std::round((a_.profile_.at(now).position - a_.real_.position()) / pole) * pole;
+    a_.slip_ -= behind;
+    a_.real_.set(a_.real_.position() + behind, now);
+    a_.out_of_step_ = false;
 }
 
-/// The driver catches a shaft that has drifted: in closed loop its place becomes the demand, in open loop nobody has counted it.
-void Axis::drift_ends(Instant now) noexcept {
-    if (!lags() || !was_on_) return;
-    if (mechanics_.closed_loop) {
-        rest_at(std::round(real_.load()));
+void AxisShaft::drift_ends(Instant now) noexcept {
+    if (!lags(a_) || !a_.was_on_) return;
+    if (a_.mechanics_.closed_loop) {
+        a_.rest_at(std::round(a_.real_.load()));
     } else {
-        slip_ += real_.load() - profile_.end_position();
+        a_.slip_ += a_.real_.load() - a_.profile_.end_position();
     }
-    fit_shaft(now);
+    fit(now);
 }
 
 }  // namespace axisgate::uim342::twin

@@ -1,7 +1,7 @@
 // Life of the drive: power, boot, events at their instants, input actions, notifications.
 // In: time, edges, ends of motions. Out: notifications.
 // Never handles an instruction: instructions.cpp does.
-#include "adapters/uim342/twin/device.hpp"
+#include "adapters/uim342/twin/device_reports.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -12,7 +12,6 @@
 namespace axisgate::uim342::twin {
 namespace {
 
-constexpr std::uint8_t code_arrived = 0x29;
 constexpr const char* encoder_position_name = "encoder.position";
 
 Settings factory_settings(const Manners& manners) {
@@ -90,11 +89,11 @@ void Device::boot_done(Instant at, Out& out) {
     inputs_.restart(memory_.ram().tg);
     if (encoder_error_) history_.at_power_on({static_cast<std::uint8_t>(Alarm::encoder_error), 0, 0});
     if (battery_low_ && !encoder_error_) history_.at_power_on({static_cast<std::uint8_t>(Alarm::battery_low), 0, 0});
-    if (encoder_error_) raise(Alarm::encoder_error, at, out);
-    if (battery_low_) raise(Alarm::battery_low, at, out);
+    if (encoder_error_) DeviceReports(*this).raise(Alarm::encoder_error, at, out);
+    if (battery_low_) DeviceReports(*this).raise(Alarm::battery_low, at, out);
     if (manners_.boot_notice) {
         Telegram model;
-        fill_model(model);
+        DeviceReports::fill_model(*this, model);
         model.producer = link_.node;
         model.consumer = link_.notifies;
         link_.send(model, at, out);
@@ -179,7 +178,7 @@ void Device::settle(Instant now, Out& out) {
     last_ = now;
     axis_.follow(now);
     keep_position(now);
-    keep_status(now);
+    DeviceReports(*this).keep_status(now);
 }
 
 /// The absolute encoder's own memory: where the shaft came to rest.
@@ -204,81 +203,34 @@ void Device::step(Instant at, Out& out) {
     } else if (axis_.deadline() <= at) {
         on_axis(axis_.step(at), at, out);
     } else if (arrive_at_ <= at) {
-        arrive(at, out);
+        DeviceReports(*this).arrive(at, out);
     } else if (!notices_.empty() && notices_.front().at <= at) {
         const Notice n = notices_.front();
         notices_.pop_front();
         link_.notify({n.data.data(), n.size}, at, out);
     } else if (unasked_at_ <= at) {
         unasked_at_ += manners_.unasked_status;
-        send_status(at, out);
+        DeviceReports(*this).send_status(at, out);
     } else if (const auto edge = inputs_.step(at)) {
         on_edge(*edge, at, out);
     }
-    keep_status(at);
+    DeviceReports(*this).keep_status(at);
 }
 
 // --- what happens by itself -------------------------------------------------------------------------------------------
 
-/// Alarms have no enable bit: they are always sent.
-void Device::raise(Alarm alarm, Instant at, Out& out) {
-    flags_.err = true;
-    notify({0, static_cast<std::uint8_t>(alarm), 0, 0, 0}, at, out);
-}
-
-/// A specimen's notification can be late, or missing.
-void Device::notify(std::initializer_list<std::uint8_t> data, Instant at, Out& out) {
-    ++notified_;
-    const bool lost = manners_.notification_lost > 0 && static_cast<std::int64_t>(specimen_draw(manners_.seed, "notification", notified_) %
-                                                                                  1000) < manners_.notification_lost;
-    if (lost) return;
-    if (manners_.notification_late == Duration::zero()) return link_.notify({data.begin(), data.size()}, at, out);
-    if (notices_.size() >= most_notices) return;
-    Notice n{at + manners_.notification_late, {}, static_cast<std::uint8_t>(data.size())};
-    std::copy(data.begin(), data.end(), n.data.begin());
-    notices_.push_back(n);
-}
-
-void Device::arrive(Instant at, Out& out) {
-    arrive_at_ = never;
-    flags_.paif = true;
-    if (memory_.ram().ie[3] == 0) return;
-    const auto p = static_cast<std::uint32_t>(axis_.position(at));
-    const auto byte = [p](int n) { return static_cast<std::uint8_t>(p >> (8 * n)); };
-    notify({code_arrived, 0, 0, 0, byte(0), byte(1), byte(2), byte(3)}, at, out);
-}
-
-/// Remembers the changes of MS[0] for as long as a specimen shows them late.
-void Device::keep_status(Instant at) {
-    if (manners_.status_late == Duration::zero()) return;
-    const auto bits = status_bits();
-    if (!statuses_.empty() && statuses_.back().bits == bits) return;
-    statuses_.push_back({at, bits});
-    while (statuses_.size() > most_statuses || (statuses_.size() > 1 && statuses_[1].at + manners_.status_late <= at))
-        statuses_.pop_front();
-}
-
-void Device::send_status(Instant at, Out& out) const {
-    Telegram t;
-    t.producer = link_.node;
-    t.consumer = link_.notifies;
-    t.cw = MS;
-    fill_status(t, at);
-    link_.send(t, at, out);
-}
-
 void Device::on_axis(Axis::Event event, Instant at, Out& out) {
     if (event == Axis::Event::arrived) {
         if (manners_.in_position == Duration::zero())
-            arrive(at, out);
+            DeviceReports(*this).arrive(at, out);
         else
             arrive_at_ = at + manners_.in_position;
     } else if (event == Axis::Event::too_fast) {
-        raise(Alarm::overspeed, at, out);  // what the drive does about it is not printed: nothing (E-51)
+        DeviceReports(*this).raise(Alarm::overspeed, at, out);  // what the drive does about it is not printed: nothing (E-51)
     } else if (event == Axis::Event::stalled) {
         flags_.tlif = true;
         arrive_at_ = never;
-        raise(Alarm::stall, at, out);
+        DeviceReports(*this).raise(Alarm::stall, at, out);
         if (memory_.ram().il[3] == 1) {
             axis_.set_driver(false, at);
         } else {
@@ -290,7 +242,7 @@ void Device::on_axis(Axis::Event event, Instant at, Out& out) {
 /// Order on one edge: the level is latched (by Inputs), the notification goes out if enabled, the action runs whatever IE says.
 void Device::on_edge(Edge edge, Instant at, Out& out) {
     if (memory_.ram().ie[edge.input] == 1) {
-        notify({static_cast<std::uint8_t>(2 * edge.input + (edge.rising ? 2 : 1))}, at, out);
+        DeviceReports(*this).notify({static_cast<std::uint8_t>(2 * edge.input + (edge.rising ? 2 : 1))}, at, out);
     }
     const std::uint16_t il = memory_.ram().il[edge.input];
     if (memory_.ram().tg[edge.input] == trigger_one_time) {
@@ -312,7 +264,7 @@ void Device::emergency_stop_by_input(Instant at, Out& out) {
     axis_.stop_fast(at, memory_.ram().sd);
     if (memory_.ram().ic[3] == 0 || flags_.lock) return;
     flags_.lock = true;
-    raise(Alarm::emergency_lock, at, out);
+    DeviceReports(*this).raise(Alarm::emergency_lock, at, out);
 }
 
 /// Action codes [L1006-1022]. The values are those of the edge's MF group; starts need the driver on and no emergency stop under way.

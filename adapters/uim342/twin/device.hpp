@@ -83,6 +83,7 @@ public:
     [[nodiscard]] TwinMechanics mechanics(int channel, Instant now) const override;
 
 private:
+    friend class DeviceReports;
     /// What the next motion will be, as instructions have set it.
     struct Wanted {
         std::uint8_t pending_group = 0;   ///< MF
@@ -106,12 +107,6 @@ private:
     void settle(Instant now, Out& out);
     void step(Instant at, Out& out);
     [[nodiscard]] Instant earliest() const noexcept;
-    void raise(Alarm alarm, Instant at, Out& out);
-    void notify(std::initializer_list<std::uint8_t> data, Instant at, Out& out);
-    void arrive(Instant at, Out& out);
-    void keep_status(Instant at);
-    void send_status(Instant at, Out& out) const;
-    void fill_model(Telegram& reply) const noexcept;
     void on_edge(Edge edge, Instant at, Out& out);
     void run_action(std::uint8_t action, std::size_t group, Instant at, Out& out);
     void emergency_stop_by_input(Instant at, Out& out);
@@ -125,7 +120,6 @@ private:
     void receive(const Telegram& t, Instant now, Out& out);
     void instruct(const Telegram& t, Instant now, Out& out);
     void restart(Instant now, Out& out);
-    [[nodiscard]] Fault strict_fault(const Telegram& t, bool is_set) const noexcept;
     [[nodiscard]] Fault get(const Telegram& t, Instant now, Telegram& reply);
     [[nodiscard]] Fault get_indexed(const Telegram& t, Instant now, Telegram& reply) const;
     [[nodiscard]] Fault set(const Telegram& t, Instant now, Telegram& reply, Out& out);
@@ -135,9 +129,6 @@ private:
     [[nodiscard]] Fault begin_motion(Instant now);
     [[nodiscard]] Fault set_driver(std::uint8_t value, Instant now);
     [[nodiscard]] Fault clear_error(const Telegram& t, Telegram& reply);
-    void report(Fault fault, const Telegram& t, std::uint8_t sub, Instant now, Out& out);
-    void fill_status(Telegram& reply, Instant now) const noexcept;
-    [[nodiscard]] std::array<std::uint8_t, 2> status_bits() const noexcept;
 
     // --- the hand (hand.cpp) ---
     static const HandRow<Device> conditions[];

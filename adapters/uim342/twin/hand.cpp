@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "adapters/uim342/twin/device.hpp"
+#include "adapters/uim342/twin/device_reports.hpp"
 
 namespace axisgate::uim342::twin {
 namespace {
@@ -93,12 +93,12 @@ const HandRow<Device> Device::conditions[] = {
              case Alarm::emergency_lock:
                  d.axis_.stop_fast(w.now, d.memory_.ram().sd);
                  d.flags_.lock = true;
-                 d.raise(alarm, w.now, *w.out);
+                 DeviceReports(d).raise(alarm, w.now, *w.out);
                  break;
              case Alarm::lower_limit:
              case Alarm::upper_limit:
                  d.axis_.stop_fast(w.now, d.memory_.ram().sd);  // "soft bumper limit is hit" [L1409]
-                 d.raise(alarm, w.now, *w.out);
+                 DeviceReports(d).raise(alarm, w.now, *w.out);
                  break;
              case Alarm::stall:
                  d.on_axis(Axis::Event::stalled, w.now, *w.out);
@@ -110,7 +110,7 @@ const HandRow<Device> Device::conditions[] = {
                  d.set_alarm_condition(d.battery_low_, alarm, true, w.now, *w.out);
                  break;
              default:
-                 d.raise(alarm, w.now, *w.out);
+                 DeviceReports(d).raise(alarm, w.now, *w.out);
                  break;
          }
          return {};
@@ -180,7 +180,7 @@ std::string Device::set_hand(const std::string& name, const Value& value, Instan
 }
 
 void Device::set_alarm_condition(bool& condition, Alarm alarm, bool on, Instant now, Out& out) {
-    if (on && !condition && online_) raise(alarm, now, out);
+    if (on && !condition && online_) DeviceReports(*this).raise(alarm, now, out);
     condition = on;
 }
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adapters/uim342/twin/device.hpp"
+#include "adapters/uim342/twin/device_reports.hpp"
 #include "adapters/uim342/twin/telegrams.hpp"
 
 namespace axisgate::uim342::twin {
@@ -56,6 +56,15 @@ std::int32_t motor_current(const Axis& axis, const Settings& s) noexcept {
     return axis.moving() ? s.mt[1] : s.mt[1] * s.mt[2] / 100;
 }
 
+/// Refusals of a specimen that insists on more than the manual's drive: whole values, and settings at rest only.
+Fault strict_fault(const Manners& manners, const Telegram& t, bool is_set, bool moving) noexcept {
+    if (!is_set) return Fault::none;
+    constexpr auto of_values = static_cast<std::uint16_t>(dl(1) | dl(2) | dl(3) | dl(4));
+    if (!manners.short_values && shapes[t.function()].set == of_values && t.dl != 4) return Fault::syntax;
+    constexpr std::array<std::uint8_t, 9> settings{AC, DC, SS, SD, BL, IE, IL, TG, MT};
+    const bool setting = std::ranges::find(settings, t.function()) != settings.end();
+    return manners.settings_at_rest && setting && moving ? Fault::running : Fault::none;
+}
 }  // namespace
 
 /// Order of validation: control word, length, sub-index, value, state (section 3.1 of our reading).
@@ -65,10 +74,11 @@ void Device::instruct(const Telegram& t, Instant now, Out& out) {
     const bool is_set = t.dl <= 8 && ((shape.set >> t.dl) & 1u) != 0;
     const std::uint8_t sub = shape.indexed && t.dl > 0 ? t.d[0] : std::uint8_t{0};
     if (!is_get && !is_set) {
-        report(Fault::syntax, t, sub, now, out);
+        DeviceReports(*this).report(Fault::syntax, t, sub, now, out);
         return;
     }
-    if (const Fault fault = strict_fault(t, is_set); fault != Fault::none) return report(fault, t, sub, now, out);
+    if (const Fault fault = strict_fault(manners_, t, is_set, axis_.moving()); fault != Fault::none)
+        return DeviceReports(*this).report(fault, t, sub, now, out);
     Telegram reply;
     reply.producer = link_.node;
     reply.consumer = t.producer;
@@ -80,36 +90,10 @@ void Device::instruct(const Telegram& t, Instant now, Out& out) {
         fault = shape.indexed ? set_indexed(t, now, reply, out) : set(t, now, reply, out);
     }
     if (fault != Fault::none) {
-        report(fault, t, sub, now, out);
+        DeviceReports(*this).report(fault, t, sub, now, out);
     } else if (t.wants_ack() && t.function() != SY && (manners_.broadcast_acknowledge || t.consumer == link_.node)) {
         link_.send(reply, now, out);
     }
-}
-
-/// Refusals of a specimen that insists on more than the manual's drive: whole values, and settings at rest only.
-Fault Device::strict_fault(const Telegram& t, bool is_set) const noexcept {
-    if (!is_set) return Fault::none;
-    constexpr auto of_values = static_cast<std::uint16_t>(dl(1) | dl(2) | dl(3) | dl(4));
-    if (!manners_.short_values && shapes[t.function()].set == of_values && t.dl != 4) return Fault::syntax;
-    constexpr std::array<std::uint8_t, 9> settings{AC, DC, SS, SD, BL, IE, IL, TG, MT};
-    const bool setting = std::ranges::find(settings, t.function()) != settings.end();
-    return manners_.settings_at_rest && setting && axis_.moving() ? Fault::running : Fault::none;
-}
-
-/// Sent even if no acknowledgement was asked for; d2 keeps bit 7 of the instruction [L1183]. Spends a pending MF.
-void Device::report(Fault fault, const Telegram& t, std::uint8_t sub, Instant now, Out& out) {
-    wanted_.pending_group = 0;
-    flags_.err = true;
-    const std::uint8_t cw = manners_.error_keeps_bit7 ? t.cw : t.function();
-    history_.add({static_cast<std::uint8_t>(fault), cw, sub});
-    if (!t.wants_ack() && !manners_.unasked_errors) return;
-    Telegram error;
-    error.producer = link_.node;
-    error.consumer = t.producer;
-    error.cw = ER;
-    error.dl = 6;
-    error.d = {0, static_cast<std::uint8_t>(fault), cw, sub, 0, 0, 0, 0};
-    link_.send(error, now, out);
 }
 
 // --- GET ----------------------------------------------------------------------------------------------------------------
@@ -118,7 +102,7 @@ Fault Device::get(const Telegram& t, Instant now, Telegram& reply) {
     const Settings& s = memory_.ram();
     switch (t.function()) {
         case ML:
-            fill_model(reply);
+            DeviceReports::fill_model(*this, reply);
             return Fault::none;
         case SN:
             put(reply, 0, memory_.serial(), 4);
@@ -189,7 +173,7 @@ Fault Device::get_indexed(const Telegram& t, Instant now, Telegram& reply) const
         case MS:
             if (i > 1) return Fault::sub_index;
             if (i == 0) {
-                fill_status(reply, now);
+                DeviceReports::fill_status(*this, reply, now);
             } else {
                 fill_speed_and_position(reply, axis_, now);
             }
@@ -235,34 +219,6 @@ Fault Device::get_indexed(const Telegram& t, Instant now, Telegram& reply) const
         default:
             return Fault::syntax;
     }
-}
-
-/// ML [L1143-1148]: d3 and d7:d6 are the factory's, the firmware versions in d5:d4 are not published.
-void Device::fill_model(Telegram& reply) const noexcept {
-    reply.cw = ML;
-    reply.dl = 8;
-    std::copy(identity_.model.begin(), identity_.model.end(), reply.d.begin());
-    put(reply, 4, manners_.firmware, 2);
-}
-
-/// MS[0] [L879-905], as a specimen shows it late.
-void Device::fill_status(Telegram& reply, Instant now) const noexcept {
-    auto bits = status_bits();
-    if (!statuses_.empty()) bits = statuses_.front().bits;
-    for (const Status& s : statuses_)
-        if (s.at + manners_.status_late <= now) bits = s.bits;
-    reply.d = {0, bits[0], bits[1], 0, 0, 0, 0, 0};
-    put(reply, 4, static_cast<std::uint32_t>(axis_.relative(now)), 4);
-    reply.dl = 8;
-}
-
-/// d1 and d2 of MS[0].
-std::array<std::uint8_t, 2> Device::status_bits() const noexcept {
-    const auto bit = [](bool on, int n) { return on ? 1u << n : 0u; };
-    return {static_cast<std::uint8_t>(bit(wanted_.ptp, 0) | bit(axis_.driver_on(), 2) | (unsigned{inputs_.latched()} << 3) |
-                                      bit(flags_.output, 6)),
-            static_cast<std::uint8_t>(bit(!axis_.moving(), 0) | bit(flags_.paif, 1) | bit(flags_.tlif, 3) | bit(flags_.lock, 5) |
-                                      bit(flags_.err, 7))};
 }
 
 // --- error history ------------------------------------------------------------------------------------------------------

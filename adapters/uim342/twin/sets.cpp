@@ -3,7 +3,7 @@
 // Never sends: instructions.cpp does.
 #include <cmath>
 
-#include "adapters/uim342/twin/device.hpp"
+#include "adapters/uim342/twin/device_reports.hpp"
 #include "adapters/uim342/twin/telegrams.hpp"
 
 namespace axisgate::uim342::twin {
@@ -219,7 +219,7 @@ Fault Device::set_indexed(const Telegram& t, Instant now, Telegram& reply, Out& 
             if (i != 0) return Fault::sub_index;
             if (t.d[1] != 0) return Fault::data;
             flags_.paif = flags_.tlif = flags_.err = false;
-            fill_status(reply, now);
+            DeviceReports::fill_status(*this, reply, now);
             return Fault::none;
         case SY:
             return command_system(i, now, out);

@@ -9,7 +9,7 @@ import time
 
 from test_openapi import API, Client, quoted
 
-NAMES = {"line": "can0", "drive": "feeder", "axis": "feeder", "parameter": "AC", "mapping": "m1", "recipe": "x", "run": "1",
+NAMES = {"specimen": "17", "line": "can0", "drive": "feeder", "axis": "feeder", "parameter": "AC", "mapping": "m1", "recipe": "x", "run": "1",
          "snapshot": "1", "revision": "1", "user": "anna", "token": "x", "alarm": "1", "unit": "2", "description": "a.eds",
          "gateway": "hall-1", "recording": "x", "capture": "x", "connection": "enip-0", "instance": "300"}
 ROLES = ["none", "viewer", "operator", "engineer", "administrator"]

@@ -32,7 +32,7 @@ beforeEach(async () => {
   route.value = { page: 'overview' };
   root = document.createElement('div');
   document.body.append(root);
-  client = { command: vi.fn(() => new Promise(() => undefined)), dropWaitingCommands: vi.fn(), parameters: vi.fn(async () => []), whole: vi.fn(async () => { throw new Problem('answered', 'the store is shut', 503); }), call: vi.fn(async () => { throw new Problem('answered', 'there is nothing', 404); }), hand: vi.fn(async () => []), events: vi.fn(async () => []), modbus: vi.fn(async () => { throw new Problem('answered', 'there is nothing', 404); }) };
+  client = { command: vi.fn(() => new Promise(() => undefined)), dropWaitingCommands: vi.fn(), parameters: vi.fn(async () => []), whole: vi.fn(async () => { throw new Problem('answered', 'the store is shut', 503); }), call: vi.fn(async () => { throw new Problem('answered', 'there is nothing', 404); }), hand: vi.fn(async () => []), events: vi.fn(async () => []), modbus: vi.fn(async () => { throw new Problem('answered', 'there is nothing', 404); }), specimen: vi.fn(async () => ({ words: [] })) };
   gateway = new Gateway({ client: client as unknown as Client, store: new Store(), url: 'ws://nowhere/' });
   gateway.store.setConnection(live());
   gateway.store.setLists({ axes: [axis({ name: 'feeder', number: 1 })], drives: [world().driveOf('feeder').document() as Drive], lines: [] }, 1);

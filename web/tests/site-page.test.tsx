@@ -96,7 +96,7 @@ describe('options', () => {
     p = await openPage('/site', { door });
     await p.see('main', 'Add an axis');
     await p.press('Change drive feeder');
-    await p.see('[data-field=options] summary', 'Options of uim342: 5; set: old_one');
+    await p.see('[data-field=options] summary', 'Options of uim342: 7; set: old_one');
     await p.see('[data-option=old_one]', 'uim342 has no such option here: it counts as not given.');
     expect(p.field('Home input').placeholder).toBe('');
     await p.see('[data-field=options]', 'the search is given up and stopped after that. 1 to 3600 s. default 60 s.');
@@ -114,7 +114,7 @@ describe('options', () => {
     p = await openPage('/site', { door });
     await p.see('main', 'Add an axis');
     await p.press('Change line can0');
-    await p.see('[data-field=options] summary', 'Options of uim342: 2, none set');
+    await p.see('[data-field=options] summary', 'Options of uim342: 4, none set');
     p.type(p.field('Crc'), '13');
     await p.press('Save to draft');
     await p.see('[data-diff="lines/can0"]', 'options nothing → {"crc":"13"}');

@@ -172,12 +172,10 @@ bool Stops::goes_another_way(Stop& s, std::uint16_t what, const Reply& reply, Tu
         return false;
     Axis& a = drive_.axes[s.axis];
     drive_.power.has_no_switch(a, reply.quit, t);
-    a.on = a.off_ordered = false;
-    drive_.give_back_due = true;
     drive_.polls.hurry(t.now);
-    drive_.feedback.publish(a, t);
-    over(s, Outcome::accepted, Reason::none,
-         "the axis was stopped and takes no motion until it is enabled, but it keeps its power: 0A98: " + describe_quit(reply.quit), t);
+    over(s, Outcome::failed, Reason::drive_refused,
+         "the axis was stopped, but it keeps its power: the control does not switch it off (0A98: " + describe_quit(reply.quit) + ")", t,
+         reply.quit);
     return true;
 }
 

@@ -50,8 +50,10 @@ private:
     void fit(Site& wanted) const;
     void gateway(std::uint64_t seed, Duration after);
     [[nodiscard]] bool found();
-    /// An event says why a drive that answers cannot be served: as good as a refused order.
+    /// The family's facts.json has this specimen as one that no gateway can serve, and an event says why.
     [[nodiscard]] bool refused_with_reason() const;
+    /// The answer to a Disable: the drive is off, or the answer says that it keeps its power and the axis is still shown as enabled.
+    [[nodiscard]] bool off_or_told(const Result& disabled) const;
     [[nodiscard]] bool served();
     [[nodiscard]] bool powered();
     [[nodiscard]] bool rests(Duration limit);

@@ -101,55 +101,44 @@ check "without the drive: offline" until_true 30 is axes/other .online false
 kill $gateway
 check "the second gateway ends when asked" until_true 20 eval '! kill -0 $gateway 2>/dev/null'
 
-# --- judges: a master and drives that were written from the standards alone, on buses of their own
+# --- judges: a master and drives that were written from the standards alone, on buses of their own; one after the other, because each process costs
+# seconds here
 judges=$here/../clients/judges
 ip link add dev vcan2 type vcan && ip link set vcan2 up
-masters=()
-node=0
-for specimen in slow sparse strict; do
-    node=$((node + 1))
-    "$program" twin cia402 --line can:vcan2 --address $node --option specimen=$specimen >specimen$node.log 2>&1 &
-    eval "specimen$node=$!"
+specimens=(slow sparse strict) pids=() named=()
+for i in "${!specimens[@]}"; do
+    "$program" twin cia402 --line can:vcan2 --address $((i + 1)) --specimen "${specimens[i]}" >specimen$i.log 2>&1 &
+    pids+=($!)
+    named+=("$((i + 1))=specimen ${specimens[i]}")
 done
-for node in 1 2 3; do check "specimen $node is on the bus" until_true 60 grep -q '^ready ' specimen$node.log; done
-node=0
-for specimen in slow sparse strict; do
-    node=$((node + 1))
-    timeout 180 /usr/bin/python3 "$judges/canopen_master.py" vcan2 $node "specimen $specimen" >master$node.log 2>master$node.err &
-    masters+=($!)
-done
-node=0
-for master in "${masters[@]}"; do
-    node=$((node + 1))
-    wait "$master" || echo "FAIL: the master of node $node came to its end: $(tail -n 1 master$node.err)"
-    cat master$node.log
-    eval "kill \$specimen$node; wait \$specimen$node 2>/dev/null"
-done
+for i in "${!specimens[@]}"; do check "specimen ${specimens[i]} is on the bus" until_true 60 grep -q '^ready ' specimen$i.log; done
+timeout 150 /usr/bin/python3 "$judges/canopen_master.py" vcan2 "${named[@]}" 2>master.err || echo "FAIL: the master came to its end: $(tail -n 1 master.err)"
+kill "${pids[@]}"
 
 ip link add dev vcan3 type vcan && ip link set vcan3 up
 drives=("--mode-shown-ms 200 --sample-ms 4 --acknowledge-ms 300 --sdo-ms 70" "--pdo preop" "--pdo none --missing 6062,606C,6502,605A,1016,60C2")
-pids=()
 lines='' axes=''
 for i in "${!drives[@]}"; do
-    # shellcheck disable=SC2086
-    /usr/bin/python3 "$judges/canopen_drive.py" vcan3 $((i + 11)) ${drives[i]} >drive$i.log 2>drive$i.err &
-    pids+=($!)
     lines+="${lines:+,}{\"name\": \"d$i\", \"line\": \"can3\", \"address\": $((i + 11)), \"presence\": \"device\"}"
     axes+="${axes:+,}{\"name\": \"d$i\", \"drive\": \"d$i\", \"number\": $((i + 1))}"
 done
-for i in "${!drives[@]}"; do check "drive ${drives[i]} is on the bus" until_true 90 grep -q '^ready' drive$i.log; done
-echo "{\"lines\": [{\"name\": \"can3\", \"uri\": \"can:vcan3\", \"family\": \"cia402\", \"bitrate\": 1000000}], \"drives\": [$lines], \"axes\": [$axes], \"mappings\": []}" >site3.json
+echo "{\"lines\": [{\"name\": \"can3\", \"uri\": \"can:vcan3\", \"family\": \"cia402\", \"bitrate\": 1000000, \"timing\": {\"reply_timeout_ms\": 3000}}], \"drives\": [$lines], \"axes\": [$axes], \"mappings\": []}" >site3.json
 "$program" serve --data /dev/shm/data3 --site site3.json >gateway3.log 2>gateway3.err &
 gateway=$!
 check "the gateway is ready on the bus of the judges" until_true 90 grep -q '^ready ' gateway3.log
 for i in "${!drives[@]}"; do
+    # shellcheck disable=SC2086
+    /usr/bin/python3 "$judges/canopen_drive.py" vcan3 $((i + 11)) ${drives[i]} >drive$i.log 2>drive$i.err &
+    drive=$!
+    check "drive ${drives[i]} is on the bus" until_true 60 grep -q '^ready' drive$i.log
     check "drive ${drives[i]}: found" until_true 40 is axes/d$i .online true
     check "drive ${drives[i]}: enabled" result_is d$i '{"command":"enable"}' done
     check "drive ${drives[i]}: moved" result_is d$i '{"command":"move_absolute","position":3000,"velocity":6000,"acceleration":50000,"deceleration":50000}' done
     check "drive ${drives[i]}: its place is shown" until_true 10 is axes/d$i .position_increments 3000
     check "drive ${drives[i]}: disabled" result_is d$i '{"command":"disable"}' done
+    kill $drive
 done
-kill "$gateway" "${pids[@]}"
+kill $gateway
 check "the third gateway ends when asked" until_true 20 eval '! kill -0 $gateway 2>/dev/null'
 while read -r line; do echo "info: $line"; done < <(tail -n 5 gateway3.err)
 while read -r line; do echo "info: $line"; done < <(tail -n 5 gateway2.err)

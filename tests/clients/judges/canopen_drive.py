@@ -60,7 +60,9 @@ for index in (int(x, 16) for x in args.missing.split(",") if x):
     for key in [k for k in OBJECTS if k[0] == index]:
         del OBJECTS[key]
 
-bus = can.Bus(interface="socketcan", channel=args.interface)
+# Only what concerns this node: frames of others would cost their time in a slow machine.
+MINE = [0x000, 0x080, 0x600 + NODE] + [0x200 + 0x100 * n + NODE for n in range(4)]
+bus = can.Bus(interface="socketcan", channel=args.interface, can_filters=[{"can_id": i, "can_mask": 0x7FF, "extended": False} for i in MINE])
 
 
 def send(identifier, data):
@@ -301,7 +303,7 @@ node.boot()
 print("ready", flush=True)
 last = time.monotonic()
 while True:
-    message = bus.recv(0.005)
+    message = bus.recv(0.01)
     moment = time.monotonic()
     drive.step(moment, moment - last)
     last = moment

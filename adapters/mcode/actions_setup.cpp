@@ -114,7 +114,8 @@ void Restart::sending(Step& step, Request& r) {
 void Restart::answered(const std::string& data, Turn& t) {
     int& ce = drive_.words.ce;
     const bool party = drive_.link().party();
-    ce = data.size() == 1 && data[0] >= '0' && data[0] <= '2' ? data[0] - '0' : 1;
+    const auto read = whole(data);
+    ce = read && *read >= 0 && *read <= 2 ? static_cast<int>(*read) : 1;
     if (ce == 0) {
         return refuse(Reason::wrong_state, fmt::format("{} ignores CTRL+C (CE=0): write CE={} first", name(), party ? 2 : 1), t);
     }

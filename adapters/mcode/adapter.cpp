@@ -195,6 +195,7 @@ void LineAdapter::start(Drive& d, Turn& t) {
                                          : r.raw.empty()               ? bus_.wire(ReplyReader::limit) + 60s
                                                                        : Duration{1s});
     reader_.begin(std::move(e));
+    d.turnaround.sends(t.now);
     bus_.turns.began(d.slot(), false);
     send(bytes, r.urgent ? Priority::urgent : r.purpose == Request::Purpose::poll ? Priority::poll : Priority::command, t, r.order);
 }
@@ -213,11 +214,26 @@ bool LineAdapter::close_block(Turn& t) {
     return true;
 }
 
+/// A request was lost if nothing has come but its echo. Lines that nobody acknowledges are judged by what is read behind them.
+void LineAdapter::learn_turnaround(Drive& d, const Flight& f, Verdict v, Turn& t) {
+    const std::string& raw = reader_.raw();
+    const bool echo_alone = raw.empty() || (!f.sent.empty() && raw.starts_with(f.sent) && raw.size() <= f.sent.size() + 2);
+    if (!echo_alone) d.turnaround.answered(t.now);
+    if (f.kind == Expect::Kind::nothing) return;
+    if (v != Verdict::waiting) {
+        d.turnaround.received(d.turnaround.at_once());
+    } else if (echo_alone) {
+        (void)d.turnaround.lost(d.turnaround.at_once());
+    }
+}
+
 void LineAdapter::finish(Verdict v, Turn& t) {
     Drive& d = *flight_.drive;
     if (flight_.kind != Expect::Kind::block) gather(v, t);
     const Flight f = std::exchange(flight_, {});
     bus_.turns.ended(d.slot());
+    if (!f.to_all) learn_turnaround(d, f, v, t);
+    bus_.turns.set({.pause = std::max(bus_.timing.pause, d.turnaround.pause())});
     bus_.turns.received(t.now);
     if (f.to_all) return;
     if (v == Verdict::waiting) {

@@ -42,6 +42,8 @@ private:
     [[nodiscard]] std::string next_mark();
     [[nodiscard]] bool close_block(Turn& t);
     void finish(Verdict v, Turn& t);
+    struct Flight;
+    void learn_turnaround(Drive& d, const Flight& f, Verdict v, Turn& t);
     // what comes beside answers
     void stray(std::string_view bytes, Turn& t);
     void stray_line(Turn& t);

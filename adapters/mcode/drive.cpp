@@ -25,6 +25,7 @@ void Part::note(Severity severity, std::string_view kind, std::int32_t code, std
 // --- words -----------------------------------------------------------------------------------------------------------------------
 
 std::optional<std::int64_t> whole(std::string_view s) {
+    s.remove_prefix(std::min(s.find_first_not_of(' '), s.size()));
     const auto v = parse_number(s);
     return v && std::fabs(*v) < 9e15 ? std::optional<std::int64_t>(std::llround(*v)) : std::nullopt;
 }

@@ -9,6 +9,7 @@
 #include "adapters/mcode/actions.hpp"
 #include "adapters/mcode/drive_mode.hpp"
 #include "adapters/mcode/drive_trouble.hpp"
+#include "adapters/mcode/drive_turnaround.hpp"
 #include "adapters/mcode/feedback.hpp"
 #include "adapters/mcode/motion.hpp"
 #include "adapters/mcode/native.hpp"
@@ -76,6 +77,7 @@ public:
     LinkWords words;
     drive::PollTimer poll;
     drive::Pace pace;
+    Turnaround turnaround;
     Start start{*this};
     ProgramMode mode{*this};
     Feedback feedback{*this};

@@ -134,6 +134,8 @@ void Jobs::ended(Verdict v, const ReplyReader& r, Turn& t) {
 void Jobs::line_sent(Verdict v, Turn& t) {
     job_.acknowledgement = v;
     job_.confirming = true;
+    job_.at_once = drive_.turnaround.at_once();
+    job_.said = t.now;
     drive_.line_ended(job_.steps[job_.at].text, v, job_.verb->own_lines());
     if (v == Verdict::waiting && !drive_.quiet()) drive_.start.silent(t);
 }
@@ -189,6 +191,27 @@ void Jobs::block_read(Turn& t) {
     job_.verb->listed(text, t);
 }
 
+/// A line without an acknowledgement, since the drive gives none (EM = 2) or it was lost: what was read behind it tells whether the drive
+/// has received it. False: it has not, or nobody knows. True: it has, or with `confirming` it is read once more.
+bool Jobs::judged(const Step& step, Turn& t) {
+    const bool quiet = job_.acknowledgement == Verdict::answered;
+    if (job_.acknowledgement == Verdict::refused) return false;
+    switch (job_.verb->proof(step, t.now - job_.said)) {
+        case Verb::Proof::none:
+            return quiet;
+        case Verb::Proof::open:
+            job_.confirming = true;
+            return true;
+        case Verb::Proof::taken:
+            if (quiet) drive_.turnaround.received(job_.at_once);
+            return true;
+        case Verb::Proof::lost:
+            if (quiet) (void)drive_.turnaround.lost(job_.at_once);
+            return false;
+    }
+    return false;
+}
+
 void Jobs::confirmed(Turn& t) {
     job_.confirming = false;
     const int error = drive_.errors.last();
@@ -204,7 +227,7 @@ void Jobs::confirmed(Turn& t) {
                       t, error);
     }
     if (step.what == Step::What::block) return block_read(t);
-    if (job_.acknowledgement == Verdict::acknowledged || job_.acknowledgement == Verdict::answered) return step_done(t);
+    if (job_.acknowledgement == Verdict::acknowledged || judged(step, t)) return job_.confirming ? void() : step_done(t);
     if (step.repeatable && ++job_.tries <= drive_.bus.timing.retries) {
         ++drive_.bus.counters.retries;
         return;

@@ -34,6 +34,8 @@ struct Job : drive::JobBase<Verb> {
     int tries = 0;
     bool confirming = false;
     Verdict acknowledgement = Verdict::waiting;
+    bool at_once = false;     ///< the line was sent soon behind an answer
+    Instant said{};           ///< when its exchange ended
     std::string listing;      ///< block: what came, as it came
     Instant give_up = never;  ///< of a standstill, or of what comes back
 
@@ -69,6 +71,16 @@ public:
     [[nodiscard]] virtual bool moves() const noexcept { return false; }
     /// Its lines are this gateway's own, and not somebody's text: their motions can be computed.
     [[nodiscard]] virtual bool own_lines() const noexcept { return false; }
+    /// What the poll behind a line without an acknowledgement says about it, `since` its sending.
+    enum class Proof : std::uint8_t {
+        none,  ///< no poll can tell
+        taken,
+        open,  ///< not yet to be told: read again
+        lost
+    };
+    [[nodiscard]] virtual Proof proof(const Step&, Duration /*since*/) const { return Proof::none; }
+    /// A motion shows in MV or in the position after this time at the latest.
+    static constexpr Duration shows_within = std::chrono::milliseconds(400);
 
 protected:
     ~Verb() = default;
@@ -97,6 +109,7 @@ private:
     [[nodiscard]] Verb& verb_of(const CommandBody& body) const noexcept;
     [[nodiscard]] bool ended_by_stop(const CommandBody& body, bool power_off) const;
     void line_sent(Verdict v, Turn& t);
+    [[nodiscard]] bool judged(const Step& step, Turn& t);
     void query_ended(Verdict v, const ReplyReader& r, Turn& t);
     void block_ended(Verdict v, const ReplyReader& r, Turn& t);
     void block_read(Turn& t);

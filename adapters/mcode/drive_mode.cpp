@@ -97,7 +97,7 @@ void ProgramMode::ended(Verdict v, const ReplyReader& r, Turn& t) {
 /// PG would put one that is only away into program mode.
 bool ProgramMode::probed(Verdict v, const ReplyReader& r, Turn& t) {
     if (v == Verdict::answered) {
-        const bool short_question = std::exchange(suspected_, false) && r.data().size() == 1 && !drive_.bus.ethernet;
+        const bool short_question = std::exchange(suspected_, false) && r.data().size() <= 2 && !drive_.bus.ethernet;
         mode_ = Mode::immediate;
         doubt_ = false;
         evidence_ = 0;

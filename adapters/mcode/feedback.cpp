@@ -115,7 +115,9 @@ void Feedback::values_unknown() noexcept {
 }
 
 bool Feedback::learn_poll(const std::string& data, Turn& t) {
-    const auto f = split(data);
+    std::string bare = data;
+    std::erase(bare, ' ');  // some drives print a blank in front of a number that is not negative (E-12)
+    const auto f = split(bare);
     const std::size_t lr = 6U + (has.encoder ? 1U : 0U), as = lr + 1U;
     const std::size_t count = lr + (has.hmt ? 2U : 0U) + (has.input ? 1U : 0U);
     bool fits = f.size() == (asks_lag_ ? 4U : 3U) && f[2].size() == count;
@@ -183,11 +185,14 @@ void Feedback::derive() {
         if (fb_.moving) fb_.target_reached = false;  // a program, or somebody else, moves it
         return;
     }
+    // MV may show a motion late: at rest before that it has not ended, unless it is where it was sent.
+    motion_.shown = motion_.shown || mv;
+    const bool may_end = motion_.shown || read_at_ >= motion_.until;
     if (motion_.kind == Motion::Kind::position && !fb_.moving && !(encoder_mode() && mv)) {
-        const bool near = encoder_mode() && !fb_.fault && !ef && std::llabs(fb_.position - motion_.target) <= 65000;
+        const bool near = may_end && encoder_mode() && !fb_.fault && !ef && std::llabs(fb_.position - motion_.target) <= 65000;
         if (fb_.position == motion_.target || near) fb_.target_reached = motion_.ended = true;
-        if (!mv) motion_.ended = true;
-    } else if (motion_.kind == Motion::Kind::home && !mv) {
+        if (!mv && may_end) motion_.ended = true;
+    } else if (motion_.kind == Motion::Kind::home && !mv && may_end) {
         motion_.ended = true;
         if (ef || fb_.fault)
             fb_.homing_error = true;
@@ -296,6 +301,8 @@ void Feedback::powered(Turn& t) {
 /// Before the acknowledgement of the command is told: the old "reached" must not stand for the new target.
 void Feedback::began(Motion motion, Turn& t) {
     motion_ = motion;
+    motion_.until = t.now + Verb::shows_within;
+    motion_.shown = flags_.mv;
     stopping_ = false;
     drive_.errors.clear_last();
     if (motion.kind == Motion::Kind::home) fb_.homing_attained = fb_.homing_error = fb_.referenced = false;

@@ -95,6 +95,8 @@ public:
         Kind kind = Kind::none;
         std::int64_t target = 0;
         bool ended = true;
+        Instant until = never;  ///< MV may show only then that it goes
+        bool shown = false;     ///< MV has shown it
     };
     void began(Motion motion, Turn& t);
     void homed(bool here, Turn& t);  ///< P was set: by a homing that takes this place, behind a search, or for itself

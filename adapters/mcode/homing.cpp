@@ -50,6 +50,17 @@ void Homing::plan(const Command& c, Turn& t) {
     job().send(std::string(search->line), false);
 }
 
+void Homing::sending(Step&, Request&) { begin_ = feedback().position(); }
+
+/// A search that was not received is not said again by itself, but told as not begun.
+Verb::Proof Homing::proof(const Step& step, Duration since) const {
+    const auto& flags = feedback().flags();
+    if (step.text == "P=0") return std::llabs(feedback().position()) <= (feedback().encoder_mode() ? 50 : 0) ? Proof::taken : Proof::lost;
+    if (step.text.starts_with("VI=")) return Proof::none;
+    if (flags.mv || flags.vc || feedback().velocity() != 0 || std::llabs(feedback().position() - begin_) > 50) return Proof::taken;
+    return since < shows_within ? Proof::open : Proof::lost;
+}
+
 void Homing::done(Turn& t) {
     if (job().steps.back().text == "P=0") {
         feedback().homed(true, t);

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 
 #include "adapters/mcode/drive.hpp"
@@ -20,6 +21,7 @@ constexpr std::int64_t fastest = 5'000'000, fastest_move = 2'560'000;
 
 void Motion::plan(const Command& c, Turn& t) {
     relative_ = false;
+    rounds_ = 0;
     if (const auto* m = std::get_if<Move>(&c.body)) return move(*m, t);
     const auto* set = std::get_if<SetPosition>(&c.body);
     if (!set) return refuse(Reason::not_supported, fmt::format("{}: {}", name_of(c.body), no_prepared_start), t);
@@ -48,6 +50,8 @@ void Motion::move(const Move& m, Turn& t) {
     set_ramp('A', m.acceleration, values.a);
     set_ramp('D', m.deceleration, values.d);
     if (velocity) slow_start(std::abs(m.target));
+    // Nobody acknowledges what is set: a motion must not begin with a speed of before.
+    if (drive_.quiet() && job().steps.size() > (stop_first ? 2U : 0U)) job().ask(feedback().value_items());
     job().send(fmt::format("{} {}", velocity ? "SL" : "MA", target));
 }
 
@@ -94,7 +98,56 @@ void Motion::slow_start(std::int64_t speed) {
     now.vi = vi;
 }
 
+/// Speeds and ramps as the drive has them, in front of a motion.
+void Motion::answered(const std::string& data, Turn& t) {
+    const Feedback::Values& wanted = feedback().values;
+    const auto f = split(data);
+    constexpr std::size_t least = 4;
+    const std::array<std::int64_t, least> values{wanted.vi, wanted.vm, wanted.a, wanted.d};
+    bool same = f.size() >= least;
+    for (std::size_t i = 0; same && i < least; ++i)
+        same = values[i] == 0 || whole(f[i]) == values[i];
+    if (same) return drive_.jobs.step_done(t);
+    (void)drive_.turnaround.lost(job().at_once);
+    if (++rounds_ > drive_.bus.timing.retries + 1)
+        return fail(Reason::no_answer, fmt::format("{} did not take the speed and the ramps of its motion", name()), t);
+    ++drive_.bus.counters.retries;
+    job().at = 0;
+    job().tries = 0;
+}
+
+/// Behind a move: it goes, has gone, or is where it was sent.
+Motion::Proof Motion::begun(std::int64_t target, Duration since) const {
+    constexpr std::int64_t play = 50;  // increments: noise of an encoder
+    const auto& flags = feedback().flags();
+    const std::int64_t from = std::llabs(feedback().position() - begin_), to = std::llabs(feedback().position() - target);
+    if (flags.mv || flags.mp || flags.vc || from > play || to <= (feedback().encoder_mode() ? play : 0)) return Proof::taken;
+    return since < shows_within ? Proof::open : Proof::lost;
+}
+
+/// Behind SL.
+Motion::Proof Motion::slews(std::int64_t speed, Duration since) const {
+    const auto& flags = feedback().flags();
+    const std::int64_t v = feedback().velocity();
+    const bool there = std::llabs(v - speed) <= std::max<std::int64_t>(2, std::llabs(speed) / 50);
+    if (flags.vc || there || (speed != 0 && !moved_ && flags.mv)) return Proof::taken;
+    return since < shows_within ? Proof::open : Proof::lost;
+}
+
+Verb::Proof Motion::proof(const Step& step, Duration since) const {
+    const auto number = [&](std::size_t from) { return std::atoll(step.text.c_str() + from); };
+    if (step.text.starts_with("MA ")) return begun(number(3), since);
+    if (step.text.starts_with("SL ")) return slews(number(3), since);
+    if (step.text.starts_with("P=")) {
+        const std::int64_t off = std::llabs(feedback().position() - number(2));
+        return off <= (feedback().encoder_mode() ? 50 : 0) ? Proof::taken : Proof::lost;
+    }
+    return Proof::none;
+}
+
 void Motion::sending(Step& step, Request& r) {
+    begin_ = feedback().position();
+    moved_ = feedback().flags().mv || feedback().velocity() != 0;
     if (!relative_ || !step.text.starts_with("MA ")) return;
     relative_ = false;
     step.text = r.text = fmt::format("MA {}", std::atoll(step.text.c_str() + 3) + feedback().position());

@@ -52,8 +52,10 @@ void Survey::list_variables(Instant now) {
 }
 
 void Survey::answered(const std::string& data, Turn& t) {
+    std::string bare = data;
+    std::erase(bare, ' ');
     if (shape_)
-        feedback().demand.shape(data == "0,1,1");
+        feedback().demand.shape(bare == "0,1,1");
     else
         feedback().learn_values(data);
     succeed({}, t);

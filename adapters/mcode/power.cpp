@@ -17,6 +17,14 @@ void Power::plan(const Command& c, Turn&) {
     job().send("ER=0");
 }
 
+Verb::Proof Power::proof(const Step& step, Duration) const {
+    const auto& flags = feedback().flags();
+    if (step.text == "DE=1") return flags.de ? Proof::taken : Proof::lost;
+    if (step.text == "ST=0") return flags.stalled ? Proof::lost : Proof::taken;
+    if (step.text == "CF") return flags.locked ? Proof::lost : Proof::taken;
+    return Proof::none;
+}
+
 void Power::done(Turn& t) {
     if (std::holds_alternative<Enable>(job().command.body)) {
         drive_.errors.clear_input_stop();

@@ -33,6 +33,7 @@ void Start::probe_anew(Turn& t) {
     pause_ = {};
     link_rounds_ = spoiled_ = 0;
     link_line_.clear();
+    unproven_.clear();
 }
 
 void Start::again(Turn& t) noexcept { drive_.presence.received(t.now); }
@@ -110,6 +111,8 @@ void Start::ended(Verdict v, const ReplyReader& r, bool mode_line, Turn& t) {
     if (drive_.presence.is(Phase::starting)) return read(v, r.data(), t);
     if (!link_line_.empty()) {
         // A probe says what it has become. After CK = 1 the first probe without a checksum is answered with NAK.
+        unproven_ = v == Verdict::answered ? std::exchange(link_line_, {}) : std::string();
+        unproven_at_once_ = drive_.turnaround.at_once();
         link_line_.clear();
         if (!received) silent(t);
         return;
@@ -121,7 +124,9 @@ void Start::ended(Verdict v, const ReplyReader& r, bool mode_line, Turn& t) {
         return;
     }
     if (drive_.mode.probed(v, r, t)) return;
-    if (v == Verdict::answered && r.data().size() == (drive_.bus.ethernet ? 1U : 4U)) return probe_answered(r.data(), t);
+    std::string link = r.data();
+    std::erase(link, ' ');  // some drives print a blank in front of a number that is not negative (E-12)
+    if (v == Verdict::answered && link.size() == (drive_.bus.ethernet ? 1U : 4U)) return probe_answered(link, t);
     drive_.errors.raised_by_search();
     drive_.words.sums = !drive_.words.sums && !drive_.bus.ethernet;
     if (!received) return silent(t);
@@ -152,7 +157,15 @@ void Start::probe_answered(const std::string& data, Turn& t) {
     const Bus& bus = drive_.bus;
     const auto digit = [&](std::size_t i, int otherwise) { return bus.ethernet ? otherwise : data[i] - '0'; };
     w = {.sums = digit(1, 0) > 0, .known_sums = w.known_sums, .em = data[0] - '0', .ck = digit(1, 0), .es = digit(2, 1), .ce = digit(3, 1)};
-    if (auto line = wanted_word(); !line.empty() && ++link_rounds_ <= link_round_limit) {
+    auto line = wanted_word();
+    if (const std::string said = std::exchange(unproven_, {}); !said.empty()) {
+        // EM = 2 acknowledges nothing: a line that is wanted again was not received.
+        if (said != line)
+            drive_.turnaround.received(unproven_at_once_);
+        else if (drive_.turnaround.lost(unproven_at_once_))
+            link_rounds_ = 0;
+    }
+    if (!line.empty() && ++link_rounds_ <= link_round_limit) {
         link_line_ = std::move(line);
         if (drive_.presence.is(Phase::absent)) drive_.presence.begin(t.now);
         return;
@@ -171,13 +184,14 @@ bool Start::needless(std::string_view item) const noexcept {
            (item == "BD" && drive_.bus.rate_code == 0);
 }
 
-void Start::read(Verdict v, const std::string& data, Turn& t) {
+void Start::read(Verdict v, std::string data, Turn& t) {
     if (v == Verdict::waiting) return silent(t);
     if (v == Verdict::garbled) {
         if (++spoiled_ >= 2 * drive_.bus.timing.silent_limit) lose(fmt::format("the answers of {} are spoiled", name()), t);
         return;
     }
     const bool good = v == Verdict::answered;
+    data.erase(0, std::min(data.find_first_not_of(' '), data.size()));
     Feedback::Has& has = feedback().has;
     const auto item = first_questions[item_];
     if (!good) drive_.errors.raised_by_search();

@@ -39,7 +39,7 @@ public:
 private:
     void probe_answered(const std::string& data, Turn& t);
     [[nodiscard]] std::string wanted_word() const;
-    void read(Verdict v, const std::string& data, Turn& t);
+    void read(Verdict v, std::string data, Turn& t);
     [[nodiscard]] bool needless(std::string_view item) const noexcept;
     void came(Turn& t);
 
@@ -48,7 +48,9 @@ private:
     bool babble_ = false;  ///< the last exchange without an answer was not without bytes
     int link_rounds_ = 0;
     std::string link_line_;  ///< EM=, CK=, ES=, CE= to be sent next
-    std::size_t item_ = 0;   ///< of what is read
+    std::string unproven_;   ///< the last such line, if nobody has acknowledged it
+    bool unproven_at_once_ = false;
+    std::size_t item_ = 0;  ///< of what is read
     std::string identity_;
     bool knows_model_ = false;      ///< by its part number
     bool running_ = false;          ///< a program, as it was found

@@ -92,6 +92,10 @@ void Stops::ended(Verdict v, Turn& t) {
     s.acknowledgement = v == Verdict::answered ? Verdict::acknowledged : v;
     s.confirming = true;
     s.to_all = false;
+    s.unproven = v == Verdict::answered;
+    s.at_once = drive_.turnaround.at_once();
+    s.said = t.now;
+    s.speed.reset();
     if (v == Verdict::waiting) drive_.start.silent(t);
 }
 
@@ -118,15 +122,24 @@ void Stops::taken_by_all(Instant received) {
     Stop& s = *lane_.first();
     feedback().demand.published(s.lines[s.at], received, true);  // who proves not to have heard it loses its demand
     s.confirming = s.to_all = true;
+    s.unproven = false;
     s.acknowledgement = Verdict::acknowledged;
     s.speed.reset();
 }
 
-/// By what was just read: off, at rest, or slower than a reading ago while its speed changes. Nothing: read again. false: it is said to
-/// this drive alone, with an acknowledgement.
-std::optional<bool> Stops::reached(Stop& s) const {
+/// By what was just read: off, out of torque mode, no program, at rest, or slower than a reading ago while its speed changes. Nothing: read
+/// again. false: it is said again, to this drive alone.
+std::optional<bool> Stops::reached(Stop& s, Instant now) const {
+    using namespace std::chrono_literals;
     const auto& flags = feedback().flags();
-    if (s.lines[s.at] == "DE=0") return !flags.de;
+    const std::string& line = s.lines[s.at];
+    if (line == "DE=0") return !flags.de;
+    if (line == "AS=0") return !feedback().torque();
+    if (line == "E") {
+        // A program that was told to end waits until its motion has ended.
+        if (!flags.by) return true;
+        return flags.mv && now - s.said < 10s ? std::nullopt : std::optional(false);
+    }
     const std::int64_t speed = std::llabs(feedback().velocity());
     if (speed == 0 && !flags.vc) return true;
     if (const auto before = std::exchange(s.speed, speed)) return flags.vc && speed < *before;
@@ -165,23 +178,33 @@ bool Stops::changed_way(Stop& s) const {
     return true;
 }
 
+/// What nobody has acknowledged is judged by what was read. False: it is read again, said again, or given up.
+bool Stops::proven(Stop& s, Turn& t) {
+    const auto received = reached(s, t.now);
+    if (!received) return false;
+    const bool to_all = std::exchange(s.to_all, false), unproven = std::exchange(s.unproven, false);
+    if (*received) {
+        if (unproven) drive_.turnaround.received(s.at_once);
+        return true;
+    }
+    feedback().demand.forget();
+    if (unproven) (void)drive_.turnaround.lost(s.at_once);
+    if (!to_all && ++s.tries > said_again_limit) {
+        over(Outcome::failed, Reason::no_answer, fmt::format("{} did not take {}", name(), s.lines[s.at]), t);
+        return false;
+    }
+    ++drive_.bus.counters.retries;
+    s.confirming = false;
+    return false;
+}
+
 void Stops::confirmed(Turn& t) {
     Stop& s = *lane_.first();
     const std::string line = s.lines[s.at];
     const int error = drive_.errors.last();
     AxisDemand& demand = feedback().demand;
     if (changed_way(s)) return;
-    if (s.to_all && error == 0) {
-        const auto received = reached(s);
-        if (!received) return;
-        s.to_all = false;
-        if (!*received) {
-            demand.forget();
-            ++drive_.bus.counters.retries;
-            s.confirming = false;
-            return;
-        }
-    }
+    if (error == 0 && (s.to_all || s.unproven) && !proven(s, t)) return;
     if (error != 0) demand.withdraw();
     const bool off = line == "DE=0" && !feedback().flags().de;
     const bool harmless = error == 40 || error == 94;  // no program ran; nothing can move with the drive off
@@ -195,10 +218,12 @@ void Stops::confirmed(Turn& t) {
         return over(Outcome::failed, Reason::no_answer, fmt::format("{} did not take {}", name(), line), t);
     ++drive_.bus.counters.retries;
     s.confirming = false;
+    // Refused while it still presses: the escape character before it was not received.
+    if (error != 0 && line == "AS=0") s.at = 0;
 }
 
 void Stops::line_taken(Stop& s, Turn& t) {
-    s.tries = 0;
+    if (s.lines.back() != "AS=0") s.tries = 0;  // its two lines are said again together
     s.confirming = false;
     const bool out_of_torque = s.lines[s.at] == "AS=0";
     if (++s.at < s.lines.size()) return;

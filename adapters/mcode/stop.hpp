@@ -16,6 +16,8 @@ namespace axisgate::mcode {
 class Stops : public Part {
 public:
     static constexpr std::size_t limit = 16;  ///< waiting stops; one more is refused as busy
+    /// How often a line is said again that nobody acknowledges, if what is read does not show that it acts.
+    static constexpr int said_again_limit = 12;
     using Part::Part;
 
     /// Its ticket is open here.
@@ -54,11 +56,15 @@ private:
         bool confirming = false;
         Verdict acknowledgement = Verdict::waiting;
         bool to_all = false;                ///< the line went to every drive at once: nobody acknowledges it
-        std::optional<std::int64_t> speed;  ///< to_all: read once since
+        bool unproven = false;              ///< nobody acknowledges the line (EM = 2, an escape character)
+        bool at_once = false;               ///< it was sent soon behind an answer
+        Instant said{};                     ///< when the line was sent
+        std::optional<std::int64_t> speed;  ///< to_all, unproven: read once since
     };
     [[nodiscard]] std::string_view at_once() const noexcept;
     [[nodiscard]] std::vector<std::string> out_of_torque() const;
-    [[nodiscard]] std::optional<bool> reached(Stop& s) const;
+    [[nodiscard]] std::optional<bool> reached(Stop& s, Instant now) const;
+    [[nodiscard]] bool proven(Stop& s, Turn& t);
     [[nodiscard]] bool changed_way(Stop& s) const;
     void line_taken(Stop& s, Turn& t);
     void over(Outcome o, Reason r, std::string text, Turn& t, std::int32_t code = 0);

@@ -13,8 +13,6 @@ namespace {
 
 /// Known faults of adapters: drives that are not served yet as the laws ask. The READMEs of the families name them under their limits.
 constexpr std::array known_faults{
-    std::pair{"mcode_network_strict",
-              "an order that a deaf drive (turnaround_ms) has lost is answered as accepted where EM=2 gives no echo"},
     std::pair{"linmot_serial_chatty", "a gateway that starts beside another master's traffic and noise is not sure to find the drive"}};
 
 /// The named extremes, and seeds that are the same in each run.

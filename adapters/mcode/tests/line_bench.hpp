@@ -7,6 +7,7 @@
 
 #include "adapters/mcode/tests/fake_drive.hpp"
 #include "adapters/mcode/twin/twin.hpp"
+#include "gateway/core/specimen.hpp"
 #include "gateway/core/wire_time.hpp"
 #include "gateway/wire/twin_bus.hpp"
 
@@ -57,6 +58,7 @@ struct LineBench : LineEvents, BenchCommands<LineBench> {
             t.address = std::string(1, twins[i]);
             t.bit_rate = rate;
             t.options = options;
+            t.freedoms = freedoms_of(catalogue(), options);
             const DriveId key{static_cast<std::uint16_t>(i)};
             bus->add(key, make_twin(catalogue(), t), {}, now);
         }

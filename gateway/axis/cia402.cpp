@@ -198,7 +198,10 @@ void Cia402Axis::change_power(State& s, const Request& r, Decision& d) const {
             case Power::stays:
                 return settle(s);
             case Power::on:
-            case Power::on_by_edge:  // the order is repeated to the drive, so that a lock that the stop has set is removed or reported
+            case Power::on_by_edge:
+                // A controller writes its word again and again while the drive comes on; each would be one more order in front of its next.
+                if (s.power_pending == 1 && r.known && !r.enables_anew()) return;
+                // The order is repeated to the drive, so that a lock that the stop has set is removed or reported
                 return order_on(s, &r.own, d);
             case Power::off:
                 return order_off(s, d);

@@ -28,6 +28,10 @@ class Dialogue : public DriveBase, protected Language<Message> {
 public:
     static constexpr int channels = Channels;
     static constexpr std::size_t stop_limit = 8;  ///< stops that can be in progress at once; a further one is refused as busy
+    /// A drive that has acknowledged an enable shows its power within this time; the enable is answered then.
+    static constexpr Duration power_shows_within = std::chrono::seconds(3);
+    /// The state of a drive may show a change so late: power that is shown after an acknowledged disable is that of before.
+    static constexpr Duration state_is_late = std::chrono::milliseconds(500);
     using Job = DialogueJob<Message>;
 
     Dialogue(Bus& bus, const DriveSetup& setup, std::size_t slot) : DriveBase(setup, bus.timing, slot, Channels), bus_(bus) {}
@@ -82,7 +86,10 @@ private:
     };
     struct Axis {
         AxisFeedback feedback;
-        Move followed;  ///< speed and ramps that a stream has sent to the drive last
+        Move followed;                 ///< speed and ramps that a stream has sent to the drive last
+        std::vector<Ticket> enabling;  ///< enables that the drive has acknowledged without showing its power yet
+        Instant on_by{};               ///< until then at the latest
+        Instant off_until{};           ///< a disable was acknowledged: the power that is shown until then may be that of before
     };
     [[nodiscard]] static Polls::Item item(int channel) noexcept { return static_cast<Polls::Item>(channel); }
     [[nodiscard]] static std::size_t place(int channel) noexcept { return has(channel) ? static_cast<std::size_t>(channel) : 0; }
@@ -96,6 +103,7 @@ private:
     void answered(const Ask& ask, const Message& answer, Turn& t);
     void learnt(int channel, Turn& t);
     void emit(int channel, Turn& t);
+    void look_for_power(int channel, Turn& t);
     void begin(Job job, Turn& t);
     [[nodiscard]] Job job_for(const SetPoint& set_point);
     void step_answered(const Message& answer, Turn& t);

@@ -23,6 +23,7 @@ void Dialogue<Message, Channels>::set_axes(const DriveSetup& setup, Turn& t) {
         set_points_.forget(a.id);
         if (job_ && its(job_->command)) job_.reset();
         polls_.drop(item(a.channel));
+        at(a.channel).enabling.clear();
         if (std::exchange(at(a.channel).feedback, {}).moving)  // after its removal no client could stop the axis
             (void)stops_.add({Ask::Why::stop, this->stop({no_ticket, a.id, QuickStop{}, false, {}}), no_ticket, a.channel, 0});
     }
@@ -47,6 +48,10 @@ void Dialogue<Message, Channels>::submit(const Command& c, Turn& t) {
     }
     const int channel = channel_of(c.axis);
     at(channel).followed = {};
+    if (ended_by(c.body, Enable{})) {
+        for (const Ticket ticket : std::exchange(at(channel).enabling, {}))
+            tickets.failed(ticket, Reason::interrupted, CommandQueue::interrupted_by(name_of(c.body)), t.out);
+    }
     exchange_.no_repeats();
     if (!stops_.add({Ask::Why::stop, this->stop(c), c.ticket, channel, 0, c.body}))
         tickets.refused(c.ticket, Reason::busy, fmt::format("{} stops are on their way already", stop_limit), t.out);
@@ -183,6 +188,7 @@ void Dialogue<Message, Channels>::answered(const Ask& ask, const Message& answer
     if (ask.why != Ask::Why::stop) return;
     if (!stops_.empty()) stops_.remove(stops_.first());
     (void)polls_.soon(item(ask.channel), t.now);
+    if (!what.refused && ask.body && std::holds_alternative<Disable>(*ask.body)) at(ask.channel).off_until = t.now + state_is_late;
     if (!what.refused) tickets.accepted(ask.ticket, t.out);
     tickets.refused(ask.ticket, Reason::drive_refused, "the drive refuses the stop with code " + what.text, t.out);
 }
@@ -220,6 +226,11 @@ void Dialogue<Message, Channels>::finish(const Job& job, const Reported& what, T
         emit(channel, t);
     }
     this->acted(body, fb);
+    if (std::holds_alternative<Enable>(body) && fb.power != AxisFeedback::Power::on) {
+        at(channel).enabling.push_back(job.command.ticket);
+        at(channel).on_by = t.now + power_shows_within;
+        return;
+    }
     if (const Parameter* p = parameter_of(body)) {
         tickets.answer(job.command.ticket, Outcome::done, Reason::none, {}, t.out, 0, parse_value(what.text, p->type).value_or(Value{}));
     } else if (std::holds_alternative<Native>(body)) {
@@ -239,11 +250,32 @@ const Parameter* Dialogue<Message, Channels>::parameter_of(const CommandBody& bo
 template <class Message, int Channels>
 void Dialogue<Message, Channels>::learnt(int channel, Turn& t) {
     if (!has(channel)) return;
-    const bool moves = at(channel).feedback.moving;
+    Axis& a = at(channel);
+    if (t.now < a.off_until && a.feedback.power == AxisFeedback::Power::on) a.feedback.power = AxisFeedback::Power::off;
+    const bool moves = a.feedback.moving;
     const Duration period = bus_.timing.poll_period;
     (void)polls_.every(item(channel), pace_.period(period, moves), t.now + pace_.period(period, false));
     polls_.quick(item(channel), moves && !pace_.close());
     emit(channel, t);
+    look_for_power(channel, t);
+}
+
+/// Many drives acknowledge an enable at once and come on later, for a brake or a test; a motion in between would be refused.
+template <class Message, int Channels>
+void Dialogue<Message, Channels>::look_for_power(int channel, Turn& t) {
+    Axis& a = at(channel);
+    const bool on = a.feedback.power == AxisFeedback::Power::on;
+    if (a.enabling.empty() || (!on && t.now < a.on_by)) return;
+    for (const Ticket ticket : std::exchange(a.enabling, {})) {
+        if (on) {
+            tickets.accepted(ticket, t.out);
+        } else {
+            tickets.failed(ticket, Reason::interrupted,
+                           fmt::format("the drive has acknowledged the enable and has not come on within {} s",
+                                       std::chrono::duration_cast<std::chrono::seconds>(power_shows_within).count()),
+                           t.out);
+        }
+    }
 }
 
 template <class Message, int Channels>
@@ -283,8 +315,10 @@ void Dialogue<Message, Channels>::end_all(Reason reason, std::string_view why, T
     polls_.clear();
     set_points_.clear();
     job_.reset();
-    for (Axis& a : axes_)
+    for (Axis& a : axes_) {
         a.followed = {};
+        a.enabling.clear();
+    }
     tickets.fail_all(reason, why, t.out);
 }
 

@@ -29,8 +29,14 @@ void Engine::change_site(Site site, SiteMemory memory, std::uint64_t revision, I
 }
 const std::shared_ptr<const SiteState>& Engine::site() const noexcept { return parts_->machine.site; }
 
-void Engine::on_command(Command command, Instant now) { parts_->commands.on_command(std::move(command), now); }
-std::optional<Refusal> Engine::on_set_point(const SetPoint& set_point, Instant now) { return parts_->streams.on_set_point(set_point, now); }
+void Engine::on_command(Command command, Instant now) {
+    end_lapsed_lease(command.axis, command.origin, now);
+    parts_->commands.on_command(std::move(command), now);
+}
+std::optional<Refusal> Engine::on_set_point(const SetPoint& set_point, Instant now) {
+    end_lapsed_lease(set_point.axis, set_point.origin, now);
+    return parts_->streams.on_set_point(set_point, now);
+}
 void Engine::on_client_lost(const AuthorityClient& who, LossCause cause, Instant now) { parts_->loss.on_client_lost(who, cause, now); }
 void Engine::on_stored(Ticket order, const std::string& fault, Instant now) { parts_->orders.on_stored(order, fault, now); }
 void Engine::shut_down(Instant now) { parts_->loss.shut_down(now); }
@@ -104,6 +110,21 @@ void Engine::on_deadline(Instant now) {
     }
 }
 
+/// Another client's message may come after the end of a lease and before the next housekeeping. The motion of the former holder ends first,
+/// since it would have neither a holder nor a loss afterwards.
+void Engine::end_lapsed_lease(AxisId axis, const Origin& origin, Instant now) {
+    Axis* a = parts_->machine.axis(axis);
+    if (a && a->authority.holder() != AuthorityClient::of(origin)) end_lapsed_lease(*a, now);
+}
+
+void Engine::end_lapsed_lease(Axis& a, Instant now) {
+    if (a.authority.holder().door == Door::none || a.authority.held(now)) return;
+    const AuthorityClient holder = a.authority.holder();
+    const auto v = a.authority.expire(now);
+    parts_->loss.on_lease_ended(a, holder, now);
+    parts_->authority.changed(a, v, nullptr, now);
+}
+
 void Engine::housekeeping(Instant now) {
     Parts& p = *parts_;
     p.looks.end_those_over(now);
@@ -122,12 +143,7 @@ void Engine::housekeeping(Instant now) {
         p.motions.check(a, now);
         p.loss.check_watchdog(a, now);
         p.streams.check(a, now);
-        if (a.authority.holder().door == Door::none || a.authority.held(now)) continue;
-        const AuthorityClient holder = a.authority.holder();
-        const bool led = a.motion.runs() ? a.motion.is_of(holder) : holder == a.owner();
-        const auto v = a.authority.expire(now);
-        if (led) p.loss.act(a, LossCause::lease_ended, now, &holder);
-        p.authority.changed(a, v, nullptr, now);
+        end_lapsed_lease(a, now);
     }
     for (const auto& slot : p.machine.drives) {
         if (!slot) continue;

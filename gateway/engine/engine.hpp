@@ -27,6 +27,10 @@
 #include "gateway/wire/frame_log.hpp"
 #include "gateway/wire/twin_bus.hpp"
 
+namespace axisgate::engine {
+struct Axis;
+}
+
 namespace axisgate {
 
 /// A parameter write that the drive has acknowledged, and that must be on the disk before the client gets its answer.
@@ -142,6 +146,8 @@ public:
 
 private:
     void housekeeping(Instant now);
+    void end_lapsed_lease(AxisId axis, const Origin& origin, Instant now);
+    void end_lapsed_lease(engine::Axis& axis, Instant now);
 
     std::unique_ptr<Parts> parts_;
     Instant next_housekeeping_{};

@@ -37,7 +37,18 @@ void LossOfCommand::on_client_lost(const AuthorityClient& who, LossCause cause, 
         act(*a, feed ? unrenewed_of(who.door) : cause, now, &who);
         if (a->stream.who == who) streams_.end(*a, Reason::interrupted, who.text() + " is gone", now);
     }
-    for (auto& [ticket, order] : pending_.orders) {  // orders that the drive accepts from now on begin without their owner
+    orphan(who, cause, nullptr);
+}
+
+void LossOfCommand::on_lease_ended(Axis& a, const AuthorityClient& holder, Instant now) {
+    const bool led = a.motion.runs() ? a.motion.is_of(holder) : holder == a.owner();
+    if (led) act(a, LossCause::lease_ended, now, &holder);
+    orphan(holder, LossCause::lease_ended, &a);
+}
+
+void LossOfCommand::orphan(const AuthorityClient& who, LossCause cause, const Axis* axis) {
+    for (auto& [ticket, order] : pending_.orders) {
+        if (axis && order.axis != axis->id && order.mover != axis->id) continue;
         if ((order.motion ? order.motion->who : AuthorityClient::of(order.by)) == who) order.owner_lost = cause;
     }
 }

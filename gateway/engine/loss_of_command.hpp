@@ -12,6 +12,8 @@ public:
     LossOfCommand(Machine& machine, Pending& pending, EngineHost& host, Publisher& publisher, Orders& orders, Streams& streams)
         : machine_(machine), pending_(pending), host_(host), publisher_(publisher), orders_(orders), streams_(streams) {}
     void on_client_lost(const AuthorityClient& who, LossCause cause, Instant now);
+    /// The lease of `holder` on this axis has expired or was given up.
+    void on_lease_ended(Axis& axis, const AuthorityClient& holder, Instant now);
     /// The action of the axis' site entry for this cause. `lost` is the lost client, if it is not the owner of the motion.
     void act(Axis& axis, LossCause cause, Instant now, const AuthorityClient* lost = nullptr);
     /// The axis moves, and no order caused it: applies the site's action for this case and reports it in any case.
@@ -23,6 +25,8 @@ public:
     [[nodiscard]] std::uint64_t losses(LossCause cause) const noexcept { return losses_.at(static_cast<std::size_t>(cause)); }
 
 private:
+    /// Motions that a drive accepts from now on begin without their owner. `axis`: only those of this axis; null: of all.
+    void orphan(const AuthorityClient& who, LossCause cause, const Axis* axis);
     Machine& machine_;
     Pending& pending_;
     EngineHost& host_;

@@ -123,12 +123,32 @@ void Supervisor::state(Axis& a, Instant now) {
                 orders_.give_own(a, QuickStop{}, now);
             return;
         }
+    } else if (shown == PowerState::operation_enabled && a.stops.wanted && a.stops.acknowledged) {
+        return halted(a, now);
     } else {
         if (a.motion.runs()) a.moves_since = {};
         return;
     }
     a.contradicts = true;
     stop(a, "state", fmt::format("it moves while it is {}", name_of(shown)), now);
+}
+
+/// The drive has acknowledged a stop. An axis that has not lost a tenth of its speed in the time for that, and a second more, goes on.
+void Supervisor::halted(Axis& a, Instant now) {
+    const std::int64_t fast = std::llabs(a.profile.feedback().velocity), ramp = a.deceleration();
+    const double tenth_s = ramp > 0 ? static_cast<double>(fast) / static_cast<double>(ramp) / 10 : worst_stop_s / 10;
+    const auto bound =
+        quick_stop_margin + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(1.5 * std::min(tenth_s, 60.0)));
+    const bool begins = a.moves_since < a.stops.given_at;
+    if (begins || now - a.moves_since < bound / 2) {  // a single reading may be far off
+        a.speed_then = begins ? fast : std::max(a.speed_then, fast);
+        if (begins) a.moves_since = now;
+        return;
+    }
+    if (a.contradicts || fast == 0 || now - a.moves_since < bound) return;
+    if (fast * 10 < a.speed_then * 9) return void(a.moves_since = {});
+    a.contradicts = true;
+    stop(a, "state", "it does not slow down although its drive has acknowledged a stop", now);
 }
 
 /// When an input has removed the power, the gateway withdraws its enable as well, so that the axis is not enabled when the input is

@@ -18,6 +18,7 @@ private:
     void limits(Axis& axis, const Motion& motion, Instant now);
     void speed(Axis& axis, Instant now);
     void state(Axis& axis, Instant now);
+    void halted(Axis& axis, Instant now);
     void inputs(Axis& axis, Instant now);
     void halt(Axis& axis, bool up, std::int64_t limit, Instant now);
     void stop(Axis& axis, std::string_view kind, std::string_view why, Instant now);

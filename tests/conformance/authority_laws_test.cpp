@@ -81,6 +81,27 @@ TEST_P(AuthorityLaws, WhoDoesNotHoldTheAxisCommandsNothingOfIt) {
     is_barred(far);
 }
 
+TEST_P(AuthorityLaws, ALeaseThatHasEndedEndsItsMotionAlthoughAnotherTakesTheAxisAtOnce) {
+    // The other takes it at each instant between two housekeepings, before and behind the end of the first lease.
+    for (int after = 1; after < 60; after += 7) {
+        SCOPED_TRACE(testing::Message() << after << " ms behind its end");
+        world = fresh();
+        start(world->twins(e));
+        const Origin anna{http::clients, std::make_shared<const std::string>("anna"), {}};
+        ASSERT_TRUE(good(say(a1, Enable{}, anna)));
+        const Result turns = say(a1, move_to(4000, Move::Kind::velocity), anna);
+        if (turns.reason == Reason::not_supported) return lacks_velocity(turns);  // every motion of such a drive has an end of its own
+        ASSERT_TRUE(good(turns)) << published(&turns);
+        ASSERT_TRUE(world->run_until_true([&] { return speed(a1) > 800; }, 5s));
+        ASSERT_TRUE(good(say(a1, HoldAxis{HoldAxis::Kind::take, 1, false, {}}, anna)));
+        world->run_for(1s + std::chrono::milliseconds(after - 4));
+        (void)say(a1, HoldAxis{HoldAxis::Kind::take, 3600, false, {}}, bert);
+        world->run_for(3s);
+        EXPECT_EQ(now().fail_safe_cause, static_cast<std::uint16_t>(LossCause::lease_ended));
+        EXPECT_LT(speed(a1), 1) << "the motion of the former holder goes on";
+    }
+}
+
 TEST_P(AuthorityLaws, AStopIsEverybodysAndCarriesNothingElse) {
     start();
     holds(a1, bert);

@@ -16,6 +16,7 @@ using namespace std::chrono_literals;
 /// The faults of the drive. A test sets a member, and it applies from then on.
 struct Flaw {
     int stops_unheard = 0;         ///< number of stops that do not reach the drive and are answered as failed
+    int halts_swallowed = 0;       ///< number of halts that do not reach the drive and are answered as accepted
     bool answers_late = false;     ///< the answers to moves are held back while this is true
     bool leaves_stream = false;    ///< the next set-point ends the stream
     bool shows_rest = false;       ///< the feedback says that the axis is at rest
@@ -36,7 +37,11 @@ public:
         flaw.stops += stop;
         if (stop && flaw.stops_unheard > 0) {
             --flaw.stops_unheard;
-            return fail(command, out);
+            return answer(command, Outcome::failed, out);
+        }
+        if (std::holds_alternative<Halt>(command.body) && flaw.halts_swallowed > 0) {
+            --flaw.halts_swallowed;
+            return answer(command, Outcome::accepted, out);
         }
         Command other = command;
         auto* m = std::get_if<Move>(&other.body);
@@ -69,13 +74,15 @@ public:
     }
 
 private:
-    static void fail(const Command& command, Out& out) {
+    static void answer(const Command& command, Outcome outcome, Out& out) {
         Result r;
         r.ticket = command.ticket;
         r.axis = command.axis;
-        r.outcome = Outcome::failed;
-        r.reason = Reason::no_answer;
-        r.text = "the drive did not answer in time";
+        r.outcome = outcome;
+        if (outcome == Outcome::failed) {
+            r.reason = Reason::no_answer;
+            r.text = "the drive did not answer in time";
+        }
         if (command.ticket != no_ticket) out.results.push_back(std::move(r));
     }
     void hold(Out& out) {
@@ -154,6 +161,17 @@ protected:
 };
 
 /// A position inside the limits is trusted until the axis is seen beyond them.
+TEST_P(StubbornLaws, ADriveThatAcknowledgesAHaltAndGoesOnIsStopped) {
+    begin(Drives{});
+    turn(a1);
+    flaw.halts_swallowed = 1;
+    const Ticket halt = give(a1, Halt{}, bert);
+    const Result* r = world->wait(halt, 5s);
+    ASSERT_TRUE(r && good(*r)) << published(r);
+    EXPECT_TRUE(world->run_until_true([&] { return speed(a1) < 1; }, 8s)) << "nobody has noticed that it goes on";
+    EXPECT_TRUE(alarmed("state"));
+}
+
 TEST_P(StubbornLaws, APositionMoveThatGoesFurtherThanItsTargetIsStoppedBeyondTheLimit) {
     begin([](AxisSpec& a) { a.position_max = 20'000 / a.increments_per_unit; });
     flaw.further = 200'000;

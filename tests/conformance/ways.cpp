@@ -297,7 +297,8 @@ public:
             (void)say(b, error_, {0});
             if (!b.until([&] { return b.state() != PowerState::fault; }, 10s)) return false;
         }
-        if (!say(b, enable_, {0}) || !say(b, enable_, {1})) return false;
+        (void)say(b, enable_, {0});  // not every drive can be switched off
+        if (!say(b, enable_, {1})) return false;
         if (!powered_on(b)) return false;
         return write32(b, speed_limit_, speed) && write32(b, acceleration_, ramp) && write32(b, deceleration_, ramp) &&
                write32(b, slew_, 0);
@@ -358,8 +359,8 @@ public:
         for (const std::uint16_t code : {std::uint16_t{0x0A81}, std::uint16_t{0x0909}, std::uint16_t{0x0603}})
             (void)command(b, code, 0, 0);
         if (!powered_on(b)) return false;
-        if ((b.picture().flags & flag_referenced) != 0) return true;
-        return command(b, 0x0A83, 1, 0) && command(b, 0x0A85, 1, 0);
+        if ((b.picture().flags & flag_referenced) == 0 && command(b, 0x0A83, 1, 0)) (void)command(b, 0x0A85, 1, 0);
+        return true;  // not every drive can be given a reference here
     }
     void set_off(Bench& b) override { set_off_to(b, b.picture().position + far); }
     void set_off_to(Bench& b, std::int64_t target) override { begin(b, 0x0A87, 1, real_of(static_cast<float>(target) / 100.0F)); }
@@ -379,9 +380,10 @@ private:
     [[nodiscard]] std::string refusal(const Bench& b) const override {
         const auto r = b.image->read(unit(), Table::input_registers, 3, 1);
         if (!refused_.empty()) return refused_;
-        return r.verdict == Verdict::good && (registers::get16(r.bytes.data()) & 0x4000)
-                   ? "command error " + std::to_string(registers::get16(r.bytes.data()) & 0x1FFF)
-                   : "";
+        if (r.verdict != Verdict::good) return "";
+        const unsigned reply = registers::get16(r.bytes.data());
+        const bool of_the_last = ((reply & 0x8000) != 0) == toggle_;
+        return of_the_last && (reply & 0x4000) ? "command error " + std::to_string(reply & 0x1FFF) : "";
     }
     bool toggle_ = false;
 };
@@ -475,6 +477,14 @@ public:
         plc_ = enip::origin_of(output, peer_);
     }
     [[nodiscard]] std::vector<LossCause> losses() const override { return {enip::loss_closed, enip::loss_timed_out, enip::loss_idle}; }
+    /// An owner is told by registers 20 and 21, which its input assembly may contain.
+    void set_off_to(Bench& b, std::int64_t target) override {
+        refusals_ = counted(b);
+        EnipWay::set_off_to(b, target);
+    }
+    [[nodiscard]] std::string refusal(const Bench& b) const override {
+        return counted(b) == refusals_ ? "" : "a refusal is counted in register 21";
+    }
     void lose(Bench& b, LossCause cause) override {
         silent = true;
         if (cause == enip::loss_idle) return b.enip->values.idle(output, peer_, b.world.now);
@@ -494,7 +504,12 @@ private:
     void deliver(Bench& b, const cip::Bytes& bytes) override {
         if (opened_) b.enip->values.consumed(output, bytes, peer_, b.world.now);
     }
+    [[nodiscard]] static std::uint16_t counted(const Bench& b) {
+        const auto r = b.image->read(1, Table::input_registers, registers::reg::refusals, 1);
+        return r.verdict == Verdict::good ? registers::get16(r.bytes.data()) : std::uint16_t{0};
+    }
     bool opened_ = false;
+    std::uint16_t refusals_ = 0;
 };
 
 // --- commands ---------------------------------------------------------------------------------------------------------
@@ -614,6 +629,13 @@ protected:
 };
 class NativeWay final : public StatementWay {
     [[nodiscard]] const char* fact() const override { return "native"; }
+    /// The drive's own words may be a refusal: those that do not begin as the fact "done" says.
+    [[nodiscard]] std::string refusal(const Bench& b) const override {
+        const Result* r = b.world.result(last_);
+        const auto* done = motion(b.subject).if_contains("done");
+        const bool no = r && good(*r) && done && !std::string_view(r->text).starts_with(std::string_view(done->as_string()));
+        return no ? "the drive answers " + r->text : StatementWay::refusal(b);
+    }
     [[nodiscard]] CommandBody lacking() const override { return Native{{'m', 'o', 'v', 'e'}, true}; }
 };
 class ActionWay final : public StatementWay {

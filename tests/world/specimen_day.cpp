@@ -14,17 +14,40 @@ std::string in_short(const Result* r) {
 }
 }  // namespace
 
-TwinMechanics SpecimenDay::shaft() const {
-    const Twin* twin = behind_a_cable ? plant->buses.at("line")->twin(DriveId{900}) : world->engine.twin(site->drive_ids.at(0));
-    return twin->mechanics(1, world->now);
-}
-
-Duration SpecimenDay::slowness() const {
+Duration slowness_of(const Catalogue& family, const FreedomValues& values) {
     std::int64_t ms = 0;
-    for (const Freedom& f : e.catalogue->freedoms()) {
+    for (const Freedom& f : family.freedoms()) {
         if (f.unit == "ms") ms += freedom(values, f.name, f.fallback);
     }
     return std::chrono::milliseconds(ms);
+}
+
+void fit_line(Site& wanted, const FreedomValues& values) {
+    const auto of = [&](std::string_view name) { return freedom(values, name); };
+    constexpr std::int64_t longest_answer = 64;  // bytes
+    const std::int64_t chunks = of("chunk_bytes") == 0 ? 0 : longest_answer / of("chunk_bytes");
+    const std::int64_t late =
+        of("reply_ms") + of("reply_spread_ms") + of("late_ms") + of("flash_silence_ms") + chunks * of("chunk_pause_ms");
+    if (late > 50) wanted.lines.at(0).timing.reply_timeout = std::max<Duration>(600ms, std::chrono::milliseconds(late + 100));
+}
+
+bool told_as_not_served(const Subject& e, const FreedomValues& values, const std::vector<Event>& events) {
+    namespace json = boost::json;
+    std::ifstream file(std::string(AXISGATE_SOURCE_DIR "/adapters/") + std::string(e.family->name) + "/tests/facts.json");
+    const json::object facts = json::parse(std::string(std::istreambuf_iterator<char>(file), {})).get_object();
+    const auto* kinds = facts.if_contains("not_served");
+    const bool known = kinds && std::ranges::any_of(kinds->get_array(), [&](const json::value& kind) {
+                           return std::ranges::all_of(kind.get_object(), [&](const auto& f) {
+                               return freedom(values, std::string_view(f.key())) == f.value().as_int64();
+                           });
+                       });
+    return known &&
+           std::ranges::any_of(events, [](const Event& v) { return v.kind == "not_served" && !v.text.empty() && !v.drive.empty(); });
+}
+
+TwinMechanics SpecimenDay::shaft() const {
+    const Twin* twin = behind_a_cable ? plant->buses.at("line")->twin(DriveId{900}) : world->engine.twin(site->drive_ids.at(0));
+    return twin->mechanics(1, world->now);
 }
 
 double SpecimenDay::looseness() const {
@@ -75,37 +98,14 @@ Move SpecimenDay::to(std::int64_t target, Move::Kind kind) {
     return m;
 }
 
-void SpecimenDay::fit(Site& wanted) const {
-    const auto of = [&](std::string_view name) { return freedom(values, name); };
-    constexpr std::int64_t longest_answer = 64;  // bytes
-    const std::int64_t chunks = of("chunk_bytes") == 0 ? 0 : longest_answer / of("chunk_bytes");
-    const std::int64_t late =
-        of("reply_ms") + of("reply_spread_ms") + of("late_ms") + of("flash_silence_ms") + chunks * of("chunk_pause_ms");
-    if (late > 50) wanted.lines.at(0).timing.reply_timeout = std::max<Duration>(600ms, std::chrono::milliseconds(late + 100));
-}
-
 bool SpecimenDay::found() {
     return world->run_until_true([&] { return online(); }, 60s + 4 * slowness());
-}
-
-bool SpecimenDay::refused_with_reason() const {
-    namespace json = boost::json;
-    std::ifstream file(std::string(AXISGATE_SOURCE_DIR "/adapters/") + std::string(e.family->name) + "/tests/facts.json");
-    const json::object facts = json::parse(std::string(std::istreambuf_iterator<char>(file), {})).get_object();
-    const auto* kinds = facts.if_contains("not_served");
-    const bool known = kinds && std::ranges::any_of(kinds->get_array(), [&](const json::value& kind) {
-                           return std::ranges::all_of(kind.get_object(), [&](const auto& f) {
-                               return freedom(values, std::string_view(f.key())) == f.value().as_int64();
-                           });
-                       });
-    return known &&
-           std::ranges::any_of(world->events, [](const Event& v) { return v.kind == "not_served" && !v.text.empty() && !v.drive.empty(); });
 }
 
 /// Returns true if the axis came up.
 bool SpecimenDay::served() {
     Site wanted = world->twins(e);
-    fit(wanted);
+    fit_line(wanted, values);
     site = world->apply(std::move(wanted));
     axis = site->axis_ids.at(0);
     const bool up = found();
@@ -242,7 +242,7 @@ void SpecimenDay::gateway(std::uint64_t seed, Duration after) {
     world->now = at;
     behind_a_cable = true;
     Site wanted = world->make_site(e, e.cable(), 1, "device");
-    fit(wanted);
+    fit_line(wanted, values);
     site = world->apply(std::move(wanted));
     axis = site->axis_ids.at(0);
 }

@@ -14,6 +14,13 @@
 
 namespace axisgate::test {
 
+/// The longest time by which a drive of these values may be late: all of its delays together.
+[[nodiscard]] Duration slowness_of(const Catalogue& family, const FreedomValues& values);
+/// Sets the reply time-out of the site's first line as a person sets it for a drive that answers so late.
+void fit_line(Site& wanted, const FreedomValues& values);
+/// The family's facts.json has drives of these values as such that no gateway can serve, and an event says why.
+[[nodiscard]] bool told_as_not_served(const Subject& subject, const FreedomValues& values, const std::vector<Event>& events);
+
 class SpecimenDay {
 public:
     explicit SpecimenDay(const Subject& subject) : e(subject) {}
@@ -39,19 +46,15 @@ private:
     [[nodiscard]] bool moving() const { return (now().flags & flag_moving) != 0; }
     [[nodiscard]] TwinMechanics shaft() const;
     [[nodiscard]] double speed() const { return std::fabs(shaft().velocity); }
-    /// The longest time by which a drive of this specimen may be late: all of its delays together.
-    [[nodiscard]] Duration slowness() const;
+    [[nodiscard]] Duration slowness() const { return slowness_of(*e.catalogue, values); }
     /// How far a shaft of this specimen may be from its target at rest, increments.
     [[nodiscard]] double looseness() const;
     /// The drive and the last events, for people.
     [[nodiscard]] std::string in_words() const;
 
-    /// The line's reply time-out as a person sets it for a drive that answers so late.
-    void fit(Site& wanted) const;
     void gateway(std::uint64_t seed, Duration after);
     [[nodiscard]] bool found();
-    /// The family's facts.json has this specimen as one that no gateway can serve, and an event says why.
-    [[nodiscard]] bool refused_with_reason() const;
+    [[nodiscard]] bool refused_with_reason() const { return told_as_not_served(e, values, world->events); }
     /// The answer to a Disable: the drive is off, or the answer says that it keeps its power and the axis is still shown as enabled.
     [[nodiscard]] bool off_or_told(const Result& disabled) const;
     [[nodiscard]] bool served();

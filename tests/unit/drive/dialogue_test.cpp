@@ -13,7 +13,8 @@ namespace {
 using namespace std::chrono_literals;
 using testing::ElementsAre;
 
-/// Letters: i who is it, j another question, s state (its value is where it is; 1000 and more: it moves), v speed, a ramp, m move, h halt.
+/// Letters: i who is it, j another question, s state (its value is where it is; 1000 and more: it moves; negative: it is off), v speed, a
+/// ramp, m move, e enable, h halt.
 struct Letter {
     int channel = 1;
     char what = 'i';
@@ -37,7 +38,7 @@ private:
     [[nodiscard]] Letter poll(int channel) const override { return {channel, 's', 0, false}; }
     [[nodiscard]] int learn(const Letter& a) override {
         if (a.what != 's') return 0;
-        axis(a.channel).power = AxisFeedback::Power::on;
+        axis(a.channel).power = a.value < 0 ? AxisFeedback::Power::off : AxisFeedback::Power::on;
         axis(a.channel).position = a.value;
         axis(a.channel).moving = a.value >= 1000;
         return a.channel;
@@ -46,6 +47,7 @@ private:
     [[nodiscard]] std::string plan(Job& job, Reason&) const override {
         const int channel = channel_of(job.command.axis);
         if (std::holds_alternative<Native>(job.command.body)) return job.steps.push_back({channel, 'n', 1, false}), "";
+        if (std::holds_alternative<Enable>(job.command.body)) return job.steps.push_back({channel, 'e', 1, false}), "";
         const auto* move = std::get_if<Move>(&job.command.body);
         if (!move) return "a toy only moves";
         if (move->acceleration) job.steps.push_back({channel, 'a', *move->acceleration, false});
@@ -140,12 +142,12 @@ struct ToyLine : testing::Test {
         adapter.on_deadline(now, out);
         take();
     }
-    /// Answers what is asked, or lets time pass, until this goes out.
-    [[nodiscard]] bool comes(const std::string& wanted) {
+    /// Answers what is asked, or lets time pass, until this goes out. `place`: in each state.
+    [[nodiscard]] bool comes(const std::string& wanted, std::int64_t place = 0) {
         for (int i = 0; i < 20; ++i) {
             if (waiting && last == wanted) return true;
             if (!waiting) wake();
-            if (waiting && last != wanted) answer(last[1], last[1] == 's' ? 0 : std::stoll(last.substr(2)), last[0] - '0');
+            if (waiting && last != wanted) answer(last[1], last[1] == 's' ? place : std::stoll(last.substr(2)), last[0] - '0');
         }
         return false;
     }
@@ -159,7 +161,7 @@ struct ToyLine : testing::Test {
 TEST_F(ToyLine, AStopEndsWhatItMustAndIsUrgentEachTimeItIsSent) {
     command(1, to(5));
     command(2, to(6));
-    command(3, Enable{});
+    command(3, ResetFault{});
     command(4, Halt{});
     ASSERT_EQ(results.size(), 2U);
     EXPECT_EQ(results[0].reason, Reason::interrupted);
@@ -174,6 +176,85 @@ TEST_F(ToyLine, AStopEndsWhatItMustAndIsUrgentEachTimeItIsSent) {
     ASSERT_EQ(results.size(), 4U);
     EXPECT_EQ(results[2].ticket, 4U);
     EXPECT_EQ(results[3].ticket, 3U) << "what does not move goes on, and is refused here by its plan";
+}
+
+/// A drive that is off, and acknowledges an enable at once.
+struct ToyLineThatIsOff : ToyLine {
+    void enable(Ticket n) {
+        if (waiting) answer(last[1], -1, last[0] - '0');
+        command(n, Enable{});
+        ASSERT_TRUE(comes("1e1", -1));
+        answer('e', 1);
+        ASSERT_TRUE(results.empty()) << "it is answered before the power is on";
+    }
+    /// States of the drive that is still off, for this time.
+    void off_for(Duration time) {
+        for (const Instant end = now + time; now < end && results.empty();) {
+            if (waiting)
+                answer(last[1], last[1] == 's' ? -1 : 0, last[0] - '0');
+            else
+                wake();
+        }
+    }
+    void SetUp() override {
+        ToyLine::SetUp();
+        ASSERT_TRUE(comes("1s0"));
+        answer('s', -1);
+    }
+};
+
+TEST_F(ToyLineThatIsOff, AnEnableIsAnsweredWhenThePowerIsShown) {
+    enable(1);
+    off_for(1s);
+    ASSERT_TRUE(results.empty());
+    ASSERT_TRUE(comes("1s0", -1));
+    answer('s', 5);
+    ASSERT_EQ(results.size(), 1U);
+    EXPECT_TRUE(good(results[0]));
+}
+
+TEST_F(ToyLineThatIsOff, PowerThatIsShownLateBehindADisableIsThatOfBefore) {
+    enable(1);
+    command(2, Disable{});
+    ASSERT_TRUE(comes("1h0", -1));
+    answer('h', 0);
+    results.clear();
+    command(3, Enable{});
+    ASSERT_TRUE(comes("1e1", 5));
+    answer('e', 1);
+    EXPECT_TRUE(results.empty()) << "answered by the power of before";
+    for (const Instant end = now + 1s; now < end && results.empty();) {
+        if (waiting)
+            answer(last[1], 5, last[0] - '0');
+        else
+            wake();
+    }
+    ASSERT_EQ(results.size(), 1U);
+    EXPECT_TRUE(good(results[0]));
+}
+
+TEST_F(ToyLineThatIsOff, EachEnableOfAControllerThatRepeatsItIsAnswered) {
+    enable(1);
+    enable(2);
+    ASSERT_TRUE(comes("1s0", -1));
+    answer('s', 5);
+    ASSERT_EQ(results.size(), 2U);
+}
+
+TEST_F(ToyLineThatIsOff, AnEnableWithoutPowerFailsAfterItsBound) {
+    enable(1);
+    off_for(10s);
+    ASSERT_EQ(results.size(), 1U);
+    EXPECT_EQ(results[0].outcome, Outcome::failed);
+    EXPECT_EQ(results[0].text, "the drive has acknowledged the enable and has not come on within 3 s");
+}
+
+TEST_F(ToyLineThatIsOff, ADisableEndsAnEnableWhosePowerIsNotShown) {
+    enable(1);
+    command(2, Disable{});
+    ASSERT_EQ(results.size(), 1U);
+    EXPECT_EQ(results[0].ticket, 1U);
+    EXPECT_EQ(results[0].reason, Reason::interrupted);
 }
 
 TEST_F(ToyLine, AStreamTellsWhatTheDriveKeepsOnlyWhenItChanges) {

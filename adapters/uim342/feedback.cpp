@@ -72,7 +72,8 @@ void Feedback::learn(const Message& request, const Message& answer, std::uint8_t
     }
     status_.on = *value != 0;
     set_bit(0x04, status_.on);
-    power_expected_ = status_.on;
+    // On: only when MS[0] shows it, because a status can be older than MO (the driver is not on at once, or the flags are late).
+    if (!status_.on) power_expected_ = false;
     if (!status_.on) drive_.together.unprepare();
     update(t);
 }

@@ -92,6 +92,8 @@ public:
     [[nodiscard]] const Motion& motion() const noexcept { return motion_; }
     [[nodiscard]] bool status_known() const noexcept { return status_known_; }
     [[nodiscard]] bool position_known() const noexcept { return position_known_; }
+    /// When the drive has said its speed and position last.
+    [[nodiscard]] Instant position_at() const noexcept { return position_at_; }
 
 private:
     void on_status(const Message& m, Turn& t);
@@ -109,7 +111,7 @@ private:
     bool status_known_ = false, position_known_ = false;
     Instant status_at_{}, position_at_{};  ///< when MS[0] and MS[1] were said last
     bool rest_unread_ = false;             ///< it stands, but the last MS[1] is from when it moved
-    bool power_expected_ = false;          ///< SON as our last command left it
+    bool power_expected_ = false;          ///< MS[0] has shown SON since our last command left it on
 };
 
 }  // namespace axisgate::uim342

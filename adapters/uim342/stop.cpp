@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "adapters/uim342/drive.hpp"
@@ -12,6 +13,10 @@
 
 namespace axisgate::uim342 {
 namespace {
+constexpr Duration look_again = std::chrono::milliseconds(100);
+// How late a status may be is not in the manual [L869-922]; an axis that stands is told to stop once more after this.
+constexpr Duration status_doubt = std::chrono::seconds(2);
+
 bool sets_motion(const Request* r) {
     if (!r) return false;
     const std::uint8_t f = r->message.function();
@@ -197,6 +202,8 @@ void Stops::supervise(bool soft, Turn& t) {
     if (!soft && rate == 0u) ramp_s = 0;
     ramp_s = std::min(ramp_s * 1.5 + 0.3, 60.0);
     supervise_at_ = t.now + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(ramp_s));
+    acknowledged_at_ = t.now;
+    doubt_until_ = supervise_at_ + status_doubt;
     supervise_soft_ = soft;
 }
 
@@ -212,10 +219,20 @@ void Stops::on_deadline(Turn& t) {
         if (late == drive::Late::repeat) drive_.bus.transmit(s.exchange.request(), Priority::urgent, t, s.ticket);
         if (late == drive::Late::over) silent(s, t);
     });
-    if (t.now < supervise_at_) return;
+    if (t.now >= supervise_at_) look(t);
+}
+
+/// The status of a drive can be later than the speed, which is measured: an axis with a speed of 0 behind its stop stands, and another ST
+/// would end the motion that is being begun meanwhile. A status that does not change is not believed to be late for ever.
+void Stops::look(Turn& t) {
     supervise_at_ = never;
-    const AxisFeedback& fb = drive_.feedback.fb();
+    const Feedback& feedback = drive_.feedback;
+    const AxisFeedback& fb = feedback.fb();
     if (!fb.moving || !drive_.presence.online()) return;
+    if (fb.velocity == 0 && feedback.position_at() > acknowledged_at_ && t.now < doubt_until_) {
+        supervise_at_ = std::min(t.now + look_again, doubt_until_);
+        return;
+    }
     drive_.notice(
         Severity::warning, "stop", 0,
         fmt::format("the axis still moves after {}, at {} pulse/s; ST is sent", supervise_soft_ ? "a halt" : "a stop", fb.velocity), t);

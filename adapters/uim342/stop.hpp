@@ -71,11 +71,14 @@ private:
     void harden(Stop& s, std::string_view why, Turn& t);
     void over(Stop& s, Outcome outcome, Reason reason, std::string text, std::int32_t code, Turn& t);
     void supervise(bool soft, Turn& t);
+    void look(Turn& t);
 
     drive::StopLane<Stop, limit> lane_;
     std::optional<Stop::Kind> repeat_;
     bool ramp_ = false;             ///< an ST was acknowledged and the axis has not stood since
     Instant supervise_at_ = never;  ///< the axis must stand by then
+    Instant acknowledged_at_{};     ///< of the stop that is watched
+    Instant doubt_until_{};         ///< until then a speed of 0 is believed against a status that says "moving"
     bool supervise_soft_ = false;
 };
 

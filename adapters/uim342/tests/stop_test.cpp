@@ -145,6 +145,46 @@ TEST(Uim342Stop, AnAxisThatGoesOnIsStoppedAgain) {
     EXPECT_TRUE(r.f.stop);
 }
 
+/// The flags of a drive can be later than its speed: an ST to a standing axis would end the motion that begins meanwhile.
+TEST(Uim342Stop, AStatusThatIsLaterThanTheSpeedIsNoMotion) {
+    Running r;
+    int stops = 0;
+    const Message moves = r.f.say(0x11, r.f.status());
+    r.f.script = [&](const Message& m) {
+        if (m.cw == 0x97) ++stops;
+        FakeNode::Verdict v;
+        if (m.function() == cw::MS && form_of(m) == Form::get && m.d[0] == 0) v.instead = moves;
+        return v;
+    };
+    r.b.ask(QuickStop{});
+    r.b.run(2s);
+    EXPECT_EQ(stops, 1) << "it has stopped, and its speed says so";
+    r.b.run(1s);
+    EXPECT_EQ(stops, 2) << "a status that goes on saying so is believed in the end";
+}
+
+TEST(Uim342Enable, AStatusThatIsLaterThanTheDriverIsNoRestart) {
+    Running r(0);
+    r.b.ask(Disable{});
+    r.b.run(100ms);
+    const auto before = r.b.notices_of("presence");
+    const Message off = r.f.say(0x11, r.f.status());
+    r.f.script = [&](const Message& m) {
+        FakeNode::Verdict v;
+        if (m.function() == cw::MS && form_of(m) == Form::get && m.d[0] == 0) v.instead = off;
+        return v;
+    };
+    r.b.ask(Enable{});
+    r.b.run(300ms);
+    EXPECT_EQ(r.b.notices_of("presence"), before) << "it has not been seen on yet";
+    r.f.script = {};
+    r.b.run(100ms);
+    EXPECT_EQ(r.b.feedback().power, AxisFeedback::Power::on);
+    r.f.set_driver(false);
+    r.b.run(100ms);
+    EXPECT_EQ(r.b.notices_of("presence"), before + 1) << "now it has";
+}
+
 // --- halt ------------------------------------------------------------------------------------------------------------------------
 
 TEST(Uim342Halt, DeceleratesWithDcByJogSpeedZero) {

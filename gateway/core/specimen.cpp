@@ -1,5 +1,6 @@
 // Half of the freedoms of a drawn specimen keep the manual's value, because a drive that differs in everything hides which difference
-// mattered. The others are drawn evenly on a logarithmic scale above the lower bound: 3 ms and 300 ms are equally interesting.
+// mattered. The others are drawn evenly on a logarithmic scale: 3 ms and 300 ms are equally interesting. The scale begins at 0 and goes in
+// both directions if the range has 0, otherwise it begins at the lower bound.
 #include "gateway/core/specimen.hpp"
 
 #include <fmt/core.h>
@@ -32,9 +33,12 @@ std::int64_t drawn(const Freedom& f, std::uint32_t seed) {
     if (specimen_draw(seed, f.name, 0) % 2 == 0) return f.fallback;
     const std::uint64_t draw = specimen_draw(seed, f.name, 1);
     if (!f.values.empty()) return f.values[draw % f.values.size()].first;
-    const double span = static_cast<double>(f.max) - static_cast<double>(f.min);
-    const double above = std::exp(fraction(draw) * std::log1p(span)) - 1;
-    return std::min(f.max, f.min + static_cast<std::int64_t>(std::llround(above)));
+    const std::int64_t origin = f.min <= 0 && f.max >= 0 ? 0 : f.min;
+    const double below = std::log1p(static_cast<double>(origin) - static_cast<double>(f.min));
+    const double above = std::log1p(static_cast<double>(f.max) - static_cast<double>(origin));
+    const double place = fraction(draw) * (below + above) - below;
+    const double away = std::copysign(std::exp(std::abs(place)) - 1, place);
+    return std::clamp(origin + static_cast<std::int64_t>(std::llround(away)), f.min, f.max);
 }
 
 const Freedom* find(const Catalogue& page, std::string_view name) {

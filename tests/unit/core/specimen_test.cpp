@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <boost/json.hpp>
+#include <cstdlib>
 #include <set>
 
 #include "gateway/core/catalogue.hpp"
@@ -105,6 +106,31 @@ TEST(Specimens, ADrawIsPermittedAndReachesTheWholeRange) {
     EXPECT_EQ(orders, (std::set<std::int64_t>{0, 2})) << "1 is in the range, and no value";
     EXPECT_NEAR(defaults, 1000, 250) << "half of the draws keep the manual's value";
     EXPECT_GT(short_times, 1300) << "small values are drawn as often as large ones";
+}
+
+TEST(Specimens, ARangeAroundZeroIsDrawnInBothDirectionsAndManySizes) {
+    const std::string start =
+        R"({"name":"start_increments","min":-1000000,"max":1000000,"default":5,"description":"the start","source":"silent"},)"
+        R"({"name":"below_increments","min":-1000,"max":0,"default":0,"description":"only below","source":"silent"},)"
+        R"({"name":"away_increments","min":-1000,"max":-10,"default":-10,"description":"away from 0","source":"silent"})";
+    const Catalogue c = page(start);
+    int below = 0, above = 0, small = 0, large = 0;
+    for (int seed = 1; seed <= 2000; ++seed) {
+        const auto v = specimen_values(c, std::to_string(seed));
+        const std::int64_t n = v.at("start_increments");
+        EXPECT_TRUE(n >= -1'000'000 && n <= 1'000'000) << n;
+        EXPECT_TRUE(v.at("below_increments") >= -1000 && v.at("below_increments") <= 0);
+        EXPECT_TRUE(v.at("away_increments") >= -1000 && v.at("away_increments") <= -10);
+        if (n == 5) continue;
+        below += n < 0;
+        above += n > 0;
+        small += std::llabs(n) < 1000;
+        large += std::llabs(n) >= 1000;
+    }
+    EXPECT_NEAR(below, 500, 120);
+    EXPECT_NEAR(above, 500, 120);
+    EXPECT_NEAR(small, 500, 120) << "a size below 1,000 is drawn as often as one above";
+    EXPECT_NEAR(large, 500, 120);
 }
 
 TEST(Specimens, AFurtherFreedomChangesNoDraw) {

@@ -201,8 +201,13 @@ void Drive::learn(const mirror::State& s, Turn& t) {
     fb.power = on ? AxisFeedback::Power::on : AxisFeedback::Power::off;
     fb.statusword = s.statusword;
     fb.quick_stopping = power == 0x07;
-    fb.moving = s.moving;
-    fb.target_reached = s.target_reached && !s.moving;
+    // The age is that at the other gateway: feedback that is stale there is never fresh here.
+    const Duration age = std::max(Duration(std::chrono::milliseconds(std::min<std::int64_t>(s.age_ms, 86'400'000))),
+                                  s.stale ? line_.stale_after + 1ms : Duration::zero());
+    // A state from before the motion knows the end of the one before. Ages are whole milliseconds.
+    const bool older = on && !s.fault && t.now - age - 1ms < begun_;
+    fb.moving = s.moving || older;
+    fb.target_reached = s.target_reached && !fb.moving;
     fb.referenced = s.referenced;
     fb.fault = s.fault;
     fb.warning = s.warning;
@@ -219,11 +224,8 @@ void Drive::learn(const mirror::State& s, Turn& t) {
     // By the mode that the other gateway shows; the mirror has no rates and inputs of the drive.
     fb.course = s.mode == 1 ? Course::to_target : s.mode == 3 || (s.mode >= 8 && s.mode <= 10) ? Course::endless : Course::unknown;
     fb.simulated = s.simulated;
-    // The age is that at the other gateway: feedback that is stale there is never fresh here.
-    const Duration age = std::max(Duration(std::chrono::milliseconds(std::min<std::int64_t>(s.age_ms, 86'400'000))),
-                                  s.stale ? line_.stale_after + 1ms : Duration::zero());
     fb.at = std::max(time_zero + 1ns, t.now - age);
-    if (!s.moving || s.fault) {
+    if (!fb.moving || s.fault) {
         if (renewal_ && renewal_->number != 0) renewal_.reset();
     }
     timer_.soon(std::min(timer_.deadline(), t.now + pace_.period(line_.timing.poll_period, fb.moving)));

@@ -94,6 +94,7 @@ private:
     std::optional<Renewal> asked_;  ///< of the velocity move that was requested: in force once that is accepted, because a refusal changes
                                     ///< nothing
     AxisFeedback axis_;
+    Instant begun_{};           ///< when the last motion was accepted
     std::uint64_t newest_ = 0;  ///< the highest number of the requests that moved the axis: states that were requested before are older
 };
 

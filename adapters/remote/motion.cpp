@@ -68,6 +68,7 @@ void Drive::answered(const mirror::Answer& answer, Turn& t) {
     if (homes || std::holds_alternative<Move>(body)) {
         axis_.target_reached = false;  // "target reached" of the old target must not be reported for the new one
         axis_.moving = true;
+        begun_ = t.now;
         axis_.homing = homes;
         axis_.homing_attained = axis_.homing_error = false;
         emit(t);

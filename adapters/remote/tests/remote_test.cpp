@@ -314,8 +314,27 @@ TEST_F(Bench, AStateFromBeforeAMotionIsThrownAway) {
     EXPECT_TRUE(feedback.moving && !feedback.target_reached);
     say(Telegram::Kind::state, question, body_of(reached));
     EXPECT_TRUE(feedback.moving && !feedback.target_reached) << "asked before the motion";
+    pass(20ms);
+    reached.age_ms = 20;
+    say(Telegram::Kind::state, 0, body_of(reached));
+    EXPECT_TRUE(feedback.moving && !feedback.target_reached) << "sampled before the motion, and sent behind it";
+    say(Telegram::Kind::state, sent.back().number, body_of(reached));
+    EXPECT_TRUE(feedback.moving && !feedback.target_reached) << "the same, as an answer to a later question";
+    reached.age_ms = 18;
     say(Telegram::Kind::state, 0, body_of(reached));
     EXPECT_TRUE(!feedback.moving && feedback.target_reached);
+}
+
+TEST_F(Bench, AFaultIsShownHoweverOldItsStateIs) {
+    come_up();
+    ask(move_of(Move::Kind::absolute, 100));
+    say(Telegram::Kind::answer, orders().back().number, "accepted none 0 ");
+    mirror::State s = standing();
+    s.statusword = 0x0208;
+    s.fault = true;
+    s.age_ms = 1000;
+    say(Telegram::Kind::state, 0, body_of(s));
+    EXPECT_TRUE(feedback.fault && !feedback.moving);
 }
 
 TEST_F(Bench, WhatIsStaleOrSimulatedThereIsSoHere) {

@@ -149,7 +149,7 @@ void LineAdapter::arrived(const Frame& frame, Turn& t) {
         flight_.deadline = std::min(flight_.latest, reader_.closing() ? std::max(flight_.deadline, now + silence) : now + silence);
     } else if (flight_.ends && v == Verdict::garbled) {
         flight_.deadline = now;  // the closing answer was spoiled: asked again
-    } else if (v == Verdict::waiting && reader_.maybe_refused()) {
+    } else if (v == Verdict::waiting && (reader_.maybe_refused() || reader_.awaits_trailing())) {
         // Speaking into an answer that still comes would spoil the next one too. 25 ms: what USB converters hold bytes back, and more.
         flight_.deadline = std::min(flight_.latest, now + 25ms + bus_.wire(16));
     } else if (v == Verdict::waiting) {
@@ -182,6 +182,8 @@ void LineAdapter::start(Drive& d, Turn& t) {
     }
     if (r.kind == Expect::Kind::command && d.quiet()) e.kind = Expect::Kind::nothing;
     flight_ = {.drive = &d, .kind = e.kind, .sent = bytes.substr(0, bytes.size() - (r.raw.empty() ? 1 : 0)), .ends = r.ends};
+    e.sent = flight_.sent;
+    e.trailing = d.words.em == 1 && d.trailing.expected();
     // A LF ends what was cut off; where nothing was it does no harm (E-68).
     const bool lead = d.link().party() && !d.line_setup.naming() && (r.wake || resync_);
     if (lead) bytes.insert(bytes.begin(), lf);
@@ -214,17 +216,19 @@ bool LineAdapter::close_block(Turn& t) {
     return true;
 }
 
-/// A request was lost if nothing has come but its echo. Lines that nobody acknowledges are judged by what is read behind them.
-void LineAdapter::learn_turnaround(Drive& d, const Flight& f, Verdict v, Turn& t) {
-    const std::string& raw = reader_.raw();
-    const bool echo_alone = raw.empty() || (!f.sent.empty() && raw.starts_with(f.sent) && raw.size() <= f.sent.size() + 2);
-    if (!echo_alone) d.turnaround.answered(t.now);
+/// A request was lost if nothing of its answer has come. A refusal says neither: the beginning of the request may be missing. Lines that
+/// nobody acknowledges are judged by what is read behind them.
+void LineAdapter::learn_manners(Drive& d, const Flight& f, Verdict v, Turn& t) {
+    if (v != Verdict::waiting && f.kind != Expect::Kind::nothing) d.turnaround.answered(t.now);
     if (f.kind == Expect::Kind::nothing) return;
-    if (v != Verdict::waiting) {
+    if (v == Verdict::answered || v == Verdict::acknowledged) {
         d.turnaround.received(d.turnaround.at_once());
-    } else if (echo_alone) {
+    } else if (v == Verdict::waiting && reader_.nothing_of_it()) {
         (void)d.turnaround.lost(d.turnaround.at_once());
     }
+    // The EM of a drive that is being looked for is not known yet.
+    const bool known = d.ready() || d.presence.is(drive::Presence::Phase::starting);
+    if (f.kind == Expect::Kind::query && v == Verdict::answered && known && d.words.em == 1) d.trailing.stood(reader_.acknowledgement());
 }
 
 void LineAdapter::finish(Verdict v, Turn& t) {
@@ -232,7 +236,7 @@ void LineAdapter::finish(Verdict v, Turn& t) {
     if (flight_.kind != Expect::Kind::block) gather(v, t);
     const Flight f = std::exchange(flight_, {});
     bus_.turns.ended(d.slot());
-    if (!f.to_all) learn_turnaround(d, f, v, t);
+    if (!f.to_all) learn_manners(d, f, v, t);
     bus_.turns.set({.pause = std::max(bus_.timing.pause, d.turnaround.pause())});
     bus_.turns.received(t.now);
     if (f.to_all) return;

@@ -43,7 +43,7 @@ private:
     [[nodiscard]] bool close_block(Turn& t);
     void finish(Verdict v, Turn& t);
     struct Flight;
-    void learn_turnaround(Drive& d, const Flight& f, Verdict v, Turn& t);
+    void learn_manners(Drive& d, const Flight& f, Verdict v, Turn& t);
     // what comes beside answers
     void stray(std::string_view bytes, Turn& t);
     void stray_line(Turn& t);

@@ -78,6 +78,7 @@ public:
     drive::PollTimer poll;
     drive::Pace pace;
     Turnaround turnaround;
+    TrailingAck trailing;
     Start start{*this};
     ProgramMode mode{*this};
     Feedback feedback{*this};

@@ -1,8 +1,10 @@
-// Turnaround: the pause that one drive needs behind its answers, learned from requests that were sent at once and lost.
-// In: the instants of its answers and of the requests to it, and which requests it has not received. Out: the pause, 0..25 ms.
-// Never takes a lost request for a short pause's fault if it was sent 30 ms or more behind the last answer.
+// Turnaround: the pause that one drive needs behind its answers, learned from requests that were sent at once and lost. TrailingAck:
+// whether its answers end with their data. In: the instants of its answers and of the requests to it, and which requests it has not
+// received. Out: the pause, 0..25 ms. Never takes a lost request for a short pause's fault if it was sent 30 ms or more behind the last
+// answer.
 #pragma once
 
+#include "adapters/mcode/wire_reply.hpp"
 #include "gateway/core/instant.hpp"
 
 namespace axisgate::mcode {
@@ -41,6 +43,25 @@ private:
     Instant answered_at_{};
     int lost_ = 0;
     bool ever_ = false, at_once_ = false;
+};
+
+/// Whether an acknowledgement is waited for behind the data of an answer. The manual does not say where it stands with EM = 1 (E-4); one
+/// that comes behind the data, while the next request is sent already, would be taken for the answer to that, or spoil it.
+class TrailingAck {
+public:
+    static constexpr int in_vain = 3;           ///< answers without any, in a drive that has sent none behind its data yet
+    static constexpr int in_vain_behind = -20;  ///< it has: more of them
+
+    [[nodiscard]] bool expected() const noexcept { return without_ < in_vain; }
+    void stood(AckPlace place) noexcept {
+        if (place == AckPlace::before) without_ = in_vain;
+        if (place == AckPlace::behind) without_ = in_vain_behind;
+        if (place == AckPlace::none && without_ < in_vain) ++without_;
+    }
+    void forget() noexcept { without_ = 0; }
+
+private:
+    int without_ = 0;
 };
 
 }  // namespace axisgate::mcode

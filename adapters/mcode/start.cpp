@@ -30,6 +30,7 @@ void Start::probe_anew(Turn& t) {
     drive_.errors.stop_asking();
     drive_.words.sums = false;
     drive_.words.em = 1;
+    drive_.trailing.forget();
     pause_ = {};
     link_rounds_ = spoiled_ = 0;
     link_line_.clear();

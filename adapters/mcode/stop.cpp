@@ -92,7 +92,8 @@ void Stops::ended(Verdict v, Turn& t) {
     s.acknowledgement = v == Verdict::answered ? Verdict::acknowledged : v;
     s.confirming = true;
     s.to_all = false;
-    s.unproven = v == Verdict::answered;
+    s.unproven = v != Verdict::acknowledged;
+    s.quiet = v == Verdict::answered;
     s.at_once = drive_.turnaround.at_once();
     s.said = t.now;
     s.speed.reset();
@@ -122,7 +123,7 @@ void Stops::taken_by_all(Instant received) {
     Stop& s = *lane_.first();
     feedback().demand.published(s.lines[s.at], received, true);  // who proves not to have heard it loses its demand
     s.confirming = s.to_all = true;
-    s.unproven = false;
+    s.unproven = s.quiet = false;
     s.acknowledgement = Verdict::acknowledged;
     s.speed.reset();
 }
@@ -158,7 +159,7 @@ void Stops::over(Outcome o, Reason r, std::string text, Turn& t, std::int32_t co
 void Stops::unconfirmed(std::string why, Turn& t) { over(Outcome::failed, Reason::no_answer, std::move(why), t); }
 
 void Stops::missed(Turn& t) {
-    if (++lane_.first()->tries > drive_.bus.timing.retries + 3) unconfirmed(fmt::format("{} did not confirm the stop", name()), t);
+    if (++lane_.first()->tries > said_again_limit) unconfirmed(fmt::format("{} did not confirm the stop", name()), t);
 }
 
 /// SL 0 is not what stops this drive now: what does comes instead.
@@ -182,13 +183,14 @@ bool Stops::changed_way(Stop& s) const {
 bool Stops::proven(Stop& s, Turn& t) {
     const auto received = reached(s, t.now);
     if (!received) return false;
-    const bool to_all = std::exchange(s.to_all, false), unproven = std::exchange(s.unproven, false);
+    const bool to_all = std::exchange(s.to_all, false), quiet = std::exchange(s.quiet, false);
+    s.unproven = false;
     if (*received) {
-        if (unproven) drive_.turnaround.received(s.at_once);
+        if (quiet) drive_.turnaround.received(s.at_once);
         return true;
     }
     feedback().demand.forget();
-    if (unproven) (void)drive_.turnaround.lost(s.at_once);
+    if (quiet) (void)drive_.turnaround.lost(s.at_once);
     if (!to_all && ++s.tries > said_again_limit) {
         over(Outcome::failed, Reason::no_answer, fmt::format("{} did not take {}", name(), s.lines[s.at]), t);
         return false;
@@ -204,7 +206,10 @@ void Stops::confirmed(Turn& t) {
     const int error = drive_.errors.last();
     AxisDemand& demand = feedback().demand;
     if (changed_way(s)) return;
-    if (error == 0 && (s.to_all || s.unproven) && !proven(s, t)) return;
+    if (error == 0 && (s.to_all || s.unproven)) {
+        if (proven(s, t)) line_taken(s, t);
+        return;
+    }
     if (error != 0) demand.withdraw();
     const bool off = line == "DE=0" && !feedback().flags().de;
     const bool harmless = error == 40 || error == 94;  // no program ran; nothing can move with the drive off

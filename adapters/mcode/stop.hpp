@@ -16,7 +16,8 @@ namespace axisgate::mcode {
 class Stops : public Part {
 public:
     static constexpr std::size_t limit = 16;  ///< waiting stops; one more is refused as busy
-    /// How often a line is said again that nobody acknowledges, if what is read does not show that it acts.
+    /// How often a line is said again that nobody acknowledges, if what is read does not show that it acts; and how many of these questions
+    /// may be lost, as to a drive whose program prints all the time.
     static constexpr int said_again_limit = 12;
     using Part::Part;
 
@@ -56,7 +57,8 @@ private:
         bool confirming = false;
         Verdict acknowledgement = Verdict::waiting;
         bool to_all = false;                ///< the line went to every drive at once: nobody acknowledges it
-        bool unproven = false;              ///< nobody acknowledges the line (EM = 2, an escape character)
+        bool unproven = false;              ///< the line was not acknowledged
+        bool quiet = false;                 ///< nobody acknowledges it (EM = 2, an escape character)
         bool at_once = false;               ///< it was sent soon behind an answer
         Instant said{};                     ///< when the line was sent
         std::optional<std::int64_t> speed;  ///< to_all, unproven: read once since

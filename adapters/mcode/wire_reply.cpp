@@ -22,7 +22,8 @@ void ReplyReader::begin(Expect expect) {
     asked_.clear();
     close_from_ = 0;
     closing_ = overflowed_ = false;
-    maybe_refused_ = false;
+    maybe_refused_ = awaits_trailing_ = false;
+    acknowledgement_ = AckPlace::none;
 }
 
 void ReplyReader::close_with(std::string mark, std::string sent) {
@@ -63,7 +64,7 @@ Verdict ReplyReader::look(bool over) {
 Verdict ReplyReader::look_for_acknowledgement(bool over) {
     const std::string_view all = raw_;
     const std::size_t width = expect_.checksum ? 1 : 2;
-    const auto at = expect_.checksum ? all.find_first_of("\x06\x15") : all.find("\r\n");
+    const auto at = expect_.checksum ? all.find_first_of("\x06\x15") : find_bare_end(all);
     if (at == std::string_view::npos) return Verdict::waiting;
     const bool prompted = is_prompt(all.back()) && (!expect_.checksum || at + 1 < all.size());
     if (expect_.prompt && !over && !prompted) return Verdict::waiting;
@@ -80,6 +81,27 @@ std::size_t ReplyReader::find_mark() const {
     while (at != std::string_view::npos && at + expect_.mark.size() < all.size() && all[at + expect_.mark.size()] == '"')
         at = all.find(expect_.mark, at + 1);
     return at != std::string_view::npos && at + expect_.mark.size() < all.size() ? at : std::string_view::npos;
+}
+
+/// The first CR LF that ends no text but the echo: an acknowledgement. One behind a text belongs to the output of a program, which may come
+/// at any time. One or two characters before it are noise.
+std::size_t ReplyReader::find_bare_end(std::string_view text) const {
+    constexpr std::size_t shortest_text = 3;
+    const std::string_view nameless = std::string_view(expect_.sent).substr(expect_.sent.empty() ? 0 : 1);
+    for (std::size_t from = 0, at = text.find("\r\n"); at != std::string_view::npos; from = at + 2, at = text.find("\r\n", from)) {
+        const std::string_view line = text.substr(from, at - from);
+        const auto shown = std::ranges::count_if(line, [](char c) { return c >= 0x20 && c <= 0x7E && !is_prompt(c); });
+        if (static_cast<std::size_t>(shown) < shortest_text || (!nameless.empty() && line.find(nameless) != std::string_view::npos))
+            return at;
+    }
+    return std::string_view::npos;
+}
+
+AckPlace ReplyReader::find_acknowledgement(std::string_view before, std::string_view behind) const {
+    const auto in = [&](std::string_view text) {
+        return (expect_.checksum ? text.find(ack) : find_bare_end(text)) != std::string_view::npos;
+    };
+    return in(before) ? AckPlace::before : in(behind) ? AckPlace::behind : AckPlace::none;
 }
 
 /// Where the line end behind the data is.
@@ -100,7 +122,7 @@ Verdict ReplyReader::look_without_mark(bool over) {
         maybe_refused_ = true;
         return over ? Verdict::refused : Verdict::waiting;
     }
-    const bool reported = all.find("\r\n") != std::string_view::npos;
+    const bool reported = find_bare_end(all) != std::string_view::npos;
     if (reported && expect_.prompt && all.back() == '?') return Verdict::refused;
     return over && (refused || (reported && !expect_.checksum)) ? Verdict::refused : Verdict::waiting;
 }
@@ -126,7 +148,9 @@ Verdict ReplyReader::look_for_data(bool over) {
     data_ = part;
     behind_ = all.substr(end + 2);
     before_ = all.substr(0, at);
-    return Verdict::answered;
+    acknowledgement_ = find_acknowledgement(before_, behind_);
+    awaits_trailing_ = expect_.trailing && acknowledgement_ == AckPlace::none;
+    return awaits_trailing_ && !over ? Verdict::waiting : Verdict::answered;
 }
 
 /// The closing answer stands at the beginning of a line: text of the block may hold the same characters elsewhere.

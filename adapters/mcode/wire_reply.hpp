@@ -25,6 +25,8 @@ struct Expect {
     bool checksum = false;  ///< CK is on
     bool prompt = false;    ///< EM = 0: a prompt is the last character
     bool ends = false;      ///< block: silence is no end; a marked question asked behind it (close_with) is, since a drive answers in order
+    std::string sent{};     ///< the line without its terminator, which may come back as an echo
+    bool trailing = false;  ///< query: the acknowledgement may stand behind the data (E-4) and is waited for if none stood before them
 };
 inline constexpr char end_of_data = '~';
 
@@ -35,6 +37,9 @@ enum class Verdict : std::uint8_t {
     refused,       ///< NAK, or the prompt `?`: a wrong checksum or an error of the drive
     garbled        ///< the answer, but spoiled
 };
+
+/// Where the acknowledgement of an answered question stood (CR LF; ACK with CK on).
+enum class AckPlace : std::uint8_t { none, before, behind };
 
 class ReplyReader {
 public:
@@ -63,6 +68,11 @@ public:
     [[nodiscard]] const std::string& behind() const noexcept { return behind_; }
     /// Question: a NAK has come and no data: refused, unless data follow soon (then the NAK was noise).
     [[nodiscard]] bool maybe_refused() const noexcept { return maybe_refused_; }
+    /// Question: its data are complete, and an acknowledgement behind them is waited for.
+    [[nodiscard]] bool awaits_trailing() const noexcept { return awaits_trailing_; }
+    [[nodiscard]] AckPlace acknowledgement() const noexcept { return acknowledgement_; }
+    /// Nothing of an answer has come: no acknowledgement, and no data of a question. Output of programs, echoes and noise are none.
+    [[nodiscard]] bool nothing_of_it() const { return expect_.kind != Expect::Kind::query || find_mark() == std::string::npos; }
     /// Question: its end came (CR LF; ACK where checksums are on) and nothing else but echo and prompt: it was taken like a line that
     /// prints nothing. So program mode stores it; without checksums a refusal looks the same.
     [[nodiscard]] bool taken_without_answer() const;
@@ -74,6 +84,8 @@ private:
     [[nodiscard]] Verdict look_without_mark(bool over);
     [[nodiscard]] Verdict look_for_end(bool over);
     [[nodiscard]] std::size_t find_mark() const;
+    [[nodiscard]] std::size_t find_bare_end(std::string_view text) const;
+    [[nodiscard]] AckPlace find_acknowledgement(std::string_view before, std::string_view behind) const;
     [[nodiscard]] std::size_t find_end(std::size_t mark) const;
     Expect expect_;
     std::string raw_, data_, before_, behind_, block_;
@@ -81,6 +93,8 @@ private:
     std::size_t close_from_ = 0;      ///< of raw_: no closing answer begins before
     bool closing_ = false, overflowed_ = false;
     bool maybe_refused_ = false;
+    bool awaits_trailing_ = false;
+    AckPlace acknowledgement_ = AckPlace::none;
 };
 
 /// Checksums in a block with CK on: one behind the whole (E-5) or one at the end of each line, both are taken. A block without any is good:

@@ -15,7 +15,8 @@ Move by(std::int64_t way, std::int64_t speed = 4000) {
 }
 
 struct DeafDrive : LineBench {
-    explicit DeafDrive(std::map<std::string, std::string> options = {}) : LineBench("!", 115200, std::move(options)) {
+    explicit DeafDrive(std::map<std::string, std::string> options = {}, std::string_view name = "!", std::uint32_t rate = 115200)
+        : LineBench(name, rate, std::move(options)) {
         run(8s);
         EXPECT_TRUE(online());
     }
@@ -70,6 +71,90 @@ TEST(McodeDeafDrive, IsServedAsAnyOther) {
             EXPECT_LE(b.adapter.counters().timeouts, timeouts) << "its pause is known";
             EXPECT_EQ(b.wait(Disable{}).outcome, Outcome::done);
         }
+    }
+}
+
+TEST(McodeTurnaround, ARequestThatWasNotSentAtOnceSaysNothing) {
+    Turnaround pause;
+    Instant now = at_ns(1'000'000'000);
+    pause.answered(now);
+    pause.sends(now);
+    EXPECT_FALSE(pause.lost(pause.at_once()));
+    pause.sends(now += 120ms);
+    pause.received(pause.at_once());  // the poll behind the lost line
+    pause.answered(now);
+    pause.sends(now);
+    EXPECT_TRUE(pause.lost(pause.at_once())) << "the second in a row";
+}
+
+TEST(McodeTrailingAck, IsAwaitedWhereADriveSendsOne) {
+    TrailingAck first, behind, none;
+    EXPECT_TRUE(first.expected()) << "not known yet";
+    first.stood(AckPlace::before);
+    EXPECT_FALSE(first.expected());
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_TRUE(none.expected());
+        none.stood(AckPlace::none);
+    }
+    EXPECT_FALSE(none.expected());
+    behind.stood(AckPlace::behind);
+    for (int i = 0; i < 10; ++i)
+        behind.stood(AckPlace::none);
+    EXPECT_TRUE(behind.expected()) << "some of its answers may be spoiled";
+    behind.forget();
+    EXPECT_TRUE(behind.expected());
+}
+
+/// An acknowledgement behind the data comes while the next request is sent: it would be taken for the answer to that, or spoil it.
+TEST(McodeDeafDrive, AnAcknowledgementBehindTheDataSpoilsNoRequest) {
+    for (const char* sums : {"0", "1"}) {
+        SCOPED_TRACE(std::string("delivered with CK = ") + sums);
+        DeafDrive b({{"answer_order", "1"}, {"turnaround_ms", "16"}, {"ck", sums}, {"delivered_ck", sums}}, "a", 9600);
+        ASSERT_EQ(b.wait(Enable{}).outcome, Outcome::done);
+        for (const std::int64_t way : {8000, -3000}) {
+            const double from = b.place();
+            ASSERT_EQ(b.wait(by(way)).outcome, Outcome::accepted);
+            b.run(6s);
+            EXPECT_NEAR(b.place() - from, static_cast<double>(way), 2);
+        }
+        const auto timeouts = b.adapter.counters().timeouts;
+        b.run(5s);
+        EXPECT_EQ(b.adapter.counters().timeouts, timeouts);
+        EXPECT_EQ(b.wait(Disable{}).outcome, Outcome::done);
+    }
+}
+
+/// Without checksums an acknowledgement is CR LF, and each line that a program prints ends with one.
+TEST(McodeDeafDrive, OutputOfAProgramAcknowledgesNoLine) {
+    DeafDrive b({{"chatter_ms", "200"}, {"turnaround_ms", "20"}, {"ck", "0"}});
+    ASSERT_EQ(b.wait(Enable{}).outcome, Outcome::done);
+    int made = 0;
+    for (const std::int64_t way : {4000, -3000, 2500, -1000, 5000, -6000}) {
+        const double from = b.place();
+        if (b.wait(by(way)).outcome != Outcome::accepted) continue;
+        b.run(5s);
+        EXPECT_NEAR(b.place() - from, static_cast<double>(way), 2) << "accepted means that it goes";
+        ++made;
+    }
+    EXPECT_GE(made, 4);
+}
+
+/// Its acknowledgement is lost each time: the axis shows that the stop was received.
+TEST(McodeDeafDrive, AStopThatIsNotAcknowledgedIsJudgedByTheAxis) {
+    for (const int kind : {0, 1, 2}) {
+        SCOPED_TRACE(kind);
+        DeafDrive b;
+        ASSERT_EQ(b.wait(Enable{}).outcome, Outcome::done);
+        Move m = by(4000);
+        m.kind = Move::Kind::velocity;
+        m.velocity.reset();
+        ASSERT_EQ(b.wait(m).outcome, Outcome::accepted);
+        b.run(1s);
+        b.on_cable = [](std::string s) { return s == "\x06" ? std::string() : s; };
+        const Result r = b.wait(kind == 0 ? CommandBody{Halt{}} : kind == 1 ? CommandBody{QuickStop{}} : CommandBody{Disable{}});
+        EXPECT_TRUE(good(r)) << r.text;
+        b.run(2s);
+        EXPECT_EQ(b.axis().velocity, 0);
     }
 }
 

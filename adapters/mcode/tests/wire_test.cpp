@@ -58,6 +58,7 @@ TEST(Framing, EveryEchoPartyAndChecksumMode) {
                 e.mark = "#a";
                 e.checksum = ck > 0;
                 e.prompt = em == 0;
+                e.sent = party ? "aPR \"#a\",P" : "PR \"#a\",P";
                 const std::string reply = shape("PR \"#a\",P", "#a7");
                 ReplyReader r;
                 r.begin(e);
@@ -66,6 +67,7 @@ TEST(Framing, EveryEchoPartyAndChecksumMode) {
                 EXPECT_EQ(r.push(reply.substr(reply.size() - 1)), Verdict::answered) << em << ck << party;
                 EXPECT_EQ(r.data(), "7");
                 e.kind = em == 2 ? Expect::Kind::nothing : Expect::Kind::command;
+                e.sent = party ? "aA=1000" : "A=1000";
                 r.begin(e);
                 const Verdict v = r.push(shape("A=1000", ""));
                 if (em == 2) {
@@ -89,6 +91,58 @@ TEST(Framing, ForeignAndLateTextIsNoAnswer) {
     EXPECT_EQ(r.push("\r\n#b43\r\n"), Verdict::answered);
     EXPECT_EQ(r.data(), "43");
     EXPECT_NE(r.before().find("count 17"), std::string::npos);
+}
+TEST(Framing, OutputOfAProgramIsNoAcknowledgement) {
+    Expect e;
+    e.kind = Expect::Kind::command;
+    e.sent = "aMA 100";
+    ReplyReader r;
+    r.begin(e);
+    EXPECT_EQ(r.push("Pos 779\r\n"), Verdict::waiting);
+    EXPECT_EQ(r.push("\r\n"), Verdict::acknowledged) << "CR LF alone is one";
+    r.begin(e);
+    EXPECT_EQ(r.push("x\r\n"), Verdict::acknowledged) << "one character before it is noise";
+    r.begin(e);
+    EXPECT_EQ(r.push("MA 100\r\n"), Verdict::acknowledged) << "it stands behind an echo";
+    r.begin(e);
+    EXPECT_EQ(r.push("Pos 779\r\n"), Verdict::waiting);
+    EXPECT_EQ(r.give_up(), Verdict::waiting) << "nobody has acknowledged it";
+    e.kind = Expect::Kind::query;
+    e.sent = "PR \"#b\",P";
+    e.mark = "#b";
+    r.begin(e);
+    EXPECT_EQ(r.push("Pos 779\r\n"), Verdict::waiting);
+    EXPECT_EQ(r.give_up(), Verdict::waiting) << "a question is not refused by it";
+    EXPECT_TRUE(r.nothing_of_it());
+    r.begin(e);
+    EXPECT_EQ(r.push("#b4"), Verdict::waiting);
+    EXPECT_FALSE(r.nothing_of_it());
+}
+TEST(Framing, AnAcknowledgementMayStandBehindTheData) {
+    for (const bool sums : {false, true}) {
+        Expect e;
+        e.mark = "#b";
+        e.checksum = sums;
+        e.trailing = true;
+        const std::string ack = sums ? "\x06" : "\r\n", data = "#b43" + (sums ? std::string(1, checksum("#b43")) : "") + "\r\n";
+        ReplyReader r;
+        r.begin(e);
+        EXPECT_EQ(r.push(data), Verdict::waiting);
+        EXPECT_TRUE(r.awaits_trailing());
+        EXPECT_EQ(r.push(ack), Verdict::answered);
+        EXPECT_EQ(r.data(), "43");
+        EXPECT_EQ(r.acknowledgement(), AckPlace::behind);
+        r.begin(e);
+        EXPECT_EQ(r.push(ack + data), Verdict::answered);
+        EXPECT_EQ(r.acknowledgement(), AckPlace::before);
+        r.begin(e);
+        EXPECT_EQ(r.push(data), Verdict::waiting);
+        EXPECT_EQ(r.give_up(), Verdict::answered) << "this drive has none";
+        EXPECT_EQ(r.acknowledgement(), AckPlace::none);
+        e.trailing = false;
+        r.begin(e);
+        EXPECT_EQ(r.push(data), Verdict::answered);
+    }
 }
 TEST(Framing, SpoiledHalfAndRefused) {
     Expect e;

@@ -8,6 +8,13 @@
 #include "adapters/cia402/drive.hpp"
 
 namespace axisgate::cia402_drive {
+namespace {
+/// Not enabled, without a fault.
+bool is_off(unsigned sw) noexcept {
+    const unsigned low = sw & 0x4Fu, six = sw & 0x6Fu;
+    return low == 0x40 || low == 0 || six == 0x21 || six == 0x23;
+}
+}  // namespace
 
 void Drive::on_emergency(const canopen::Emergency& e, Turn& t) {
     if (!node.presence.online()) return node.presence.received(t.now);
@@ -204,18 +211,34 @@ void Feedback::learnt(Turn& t) {
     ++node.line.counters.exchanges;  // a SYNC counts as the request, both PDOs as the answer
     look_by(t.now + std::max<Duration>(3 * node.line.cycle(), std::chrono::milliseconds(150)));
     calculate_missing(t.now);
+    if (older_than_power(drive_.known.fb.native_status, t.now)) {
+        drive_.known.fb.native_status = judged_;
+        return;
+    }
     seen_ = true;
     watch_power(drive_.known.fb.native_status);
     judge(t);
+}
+
+/// A report may have been on its way while the axis was enabled, which SDO answers have shown. Reports that do not show the axis on within
+/// a second are believed.
+bool Feedback::older_than_power(unsigned sw, Instant now) noexcept {
+    constexpr Duration latest = std::chrono::seconds(1);
+    if ((drive_.known.cw & 0x0Fu) != 0x0F || drive_.enabling()) {
+        enabled_at_ = now;
+        power_shown_ = false;
+        return false;
+    }
+    power_shown_ = power_shown_ || !is_off(sw);
+    return !power_shown_ && now - enabled_at_ < latest;
 }
 
 /// If the power is removed (STO, a safe enable input, a switch at the drive), the drive goes to "switch on disabled" while its control word
 /// still says "enable operation". A drive that returns by itself would then run again. Two reports are needed, since one may be older than
 /// the control word.
 void Feedback::watch_power(unsigned sw) {
-    const unsigned low = sw & 0x4Fu, six = sw & 0x6Fu;
-    const bool off = low == 0x40 || low == 0 || six == 0x21 || six == 0x23;
-    const bool fell = off && (drive_.known.cw & 0x0Fu) == 0x0F && !drive_.enabling();
+    const unsigned six = sw & 0x6Fu;
+    const bool fell = is_off(sw) && (drive_.known.cw & 0x0Fu) == 0x0F && !drive_.enabling();
     fallen_ = fell ? fallen_ + 1 : 0;
     if (fallen_ == 2) {
         power_lost_ = true;
@@ -249,7 +272,7 @@ void Feedback::tell_rates(Turn& t) {
 void Feedback::judge(Turn& t) {
     AxisKnown& known = drive_.known;
     AxisFeedback& fb = known.fb;
-    const unsigned sw = fb.native_status, six = sw & 0x6Fu;
+    const unsigned sw = judged_ = fb.native_status, six = sw & 0x6Fu;
     drive_.saw_status(sw);
     const bool enabled = six == 0x27, quick = six == 0x07, reacting = (sw & 0x4Fu) == 0x0F, was_fault = fb.fault;
     fb.statusword = static_cast<std::uint16_t>(sw & 0x7Fu);

@@ -57,11 +57,15 @@ private:
     [[nodiscard]] bool may_have_arrived(Instant now) const noexcept;
     void emit(Turn& t);
     void watch_power(unsigned statusword);
+    [[nodiscard]] bool older_than_power(unsigned statusword, Instant now) noexcept;
     [[nodiscard]] Course course() const noexcept;
 
     bool status_new_ = false, motion_new_ = false, need_code_ = false;
     bool seen_ = false;                     ///< complete feedback has arrived since the start
     bool power_lost_ = false;               ///< the drive has left operation by itself, and has had no voltage since
+    bool power_shown_ = false;              ///< a report has shown the axis on since its control word enables it
+    Instant enabled_at_{};                  ///< the last report before that control word
+    std::uint32_t judged_ = 0;              ///< the status word of the picture
     int fallen_ = 0;                        ///< reports in succession of an axis that is off under a control word that enables it
     int fresh_ = 0;                         ///< status words since a new set-point that do not concern it yet
     bool left_ = false;                     ///< since the order, the drive has shown that the target is not reached

@@ -3,11 +3,14 @@
 // configured by the freedoms of the page.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "adapters/cia402/tests/line_bench.hpp"
 #include "gateway/core/specimen.hpp"
 #include "gateway/protocols/canopen/nmt.hpp"
+#include "gateway/wire/specimen_twin.hpp"
 
 namespace axisgate::cia402_drive::test {
 namespace {
@@ -22,7 +25,9 @@ struct Manners : LineBench {
         t.address = "5";
         t.kind = LineKind::can;
         t.freedoms = freedoms_of(page(), of_twin);
-        bus->add(DriveId{0}, twin::make_twin(t, nullptr, page().freedoms()), {}, now);
+        // No freedom of this page: with slow SDO answers of the twin's own, this makes its PDOs alone late.
+        if (const auto late = of_twin.find("reply_ms"); late != of_twin.end()) t.freedoms["reply_ms"] = std::stoll(late->second);
+        bus->add(DriveId{0}, with_common_freedoms(twin::make_twin(t, nullptr, page().freedoms()), t), {}, now);
         crossed = [this](const Frame& f) { note(f); };
         open();
     }
@@ -69,6 +74,33 @@ SetPoint led_to(std::int64_t value, std::int64_t velocity) {
     p.velocity = velocity;
     p.acceleration = p.deceleration = 1'000'000;
     return p;
+}
+
+// --- PDOs that are later than SDO answers ------------------------------------------------------------------------------------
+
+TEST(Cia402LateReports, ReportsFromBeforeAnEnableAreNoLossOfPower) {
+    Manners b({{"sdo_answer_ms", "1"}, {"reply_ms", "112"}});
+    b.run(3s);
+    for (int i = 0; i < 2; ++i) {
+        ASSERT_TRUE(good(b.ask(Enable{})));
+        b.words.clear();
+        EXPECT_TRUE(good(b.ask(speed(4000))));
+        EXPECT_EQ(b.axis.power, AxisFeedback::Power::on);
+        b.run(1s);
+        EXPECT_EQ(std::ranges::count(b.words, 0), 0) << "nobody has told it to switch off";
+        EXPECT_EQ(b.axis.power, AxisFeedback::Power::on);
+        EXPECT_NE(b.axis.velocity, 0);
+        ASSERT_TRUE(good(b.ask(Disable{})));
+        b.run(1s);
+        EXPECT_EQ(b.axis.power, AxisFeedback::Power::off);
+    }
+    ASSERT_TRUE(good(b.ask(Enable{})));
+    b.run(500ms);
+    b.words.clear();
+    ASSERT_EQ(b.bus->set_hand(DriveId{0}, "safe_voltage_enable", Value{false}, b.now), "");
+    b.run(500ms);
+    EXPECT_EQ(b.axis.power, AxisFeedback::Power::off);
+    EXPECT_EQ(std::ranges::count(b.words, 0), 1) << "a loss of power is one";
 }
 
 // --- 6061h -----------------------------------------------------------------------------------------------------------------

@@ -73,6 +73,7 @@ void Feedback::learn(const Message& request, const Message& answer, std::uint8_t
     status_.on = *value != 0;
     set_bit(0x04, status_.on);
     // On: only when MS[0] shows it, because a status can be older than MO (the driver is not on at once, or the flags are late).
+    off_at_ = status_.on ? Instant{} : t.now;
     if (!status_.on) power_expected_ = false;
     if (!status_.on) drive_.together.unprepare();
     update(t);
@@ -84,6 +85,7 @@ void Feedback::on_status(const Message& m, Turn& t) {
     status_ = status_of(m);
     status_known_ = true;
     status_at_ = t.now;
+    stop_shown_ = status_.stop;
     if (!status_.stop) {
         if (had && before.stop && motion_.seen_moving) motion_.kind = Motion::Kind::unknown;  // an input, or somebody else, has begun it
         motion_.seen_moving = true;
@@ -98,7 +100,8 @@ void Feedback::on_status(const Message& m, Turn& t) {
     }
     drive_.errors.on_status(status_, !had || !before.err);
     const bool went_off = had && before.on && !status_.on && power_expected_;
-    power_expected_ = status_.on;
+    const bool before_off = off_at_ != Instant{} && t.now - off_at_ < status_doubt;  // it may be older than MO = 0
+    power_expected_ = status_.on && !before_off;
     const AxisFeedback old = fb_;
     derive(t);
     drive_.demand.at_status(had && before.stop && !status_.stop, t.now);
@@ -130,9 +133,23 @@ void Feedback::on_speed(const Message& m, Turn& t) {
     emit(t);
 }
 
+/// A status that says that the axis stands, soon behind its BG, is that of before BG unless the axis is at its goal, where it can have been
+/// led between two statuses.
+bool Feedback::status_is_older(Instant now) const noexcept {
+    if (motion_.kind == Motion::Kind::none) return false;
+    const Duration since = now - motion_.begun;
+    if (!motion_.seen_moving && since < start_grace) return true;
+    if (motion_.seen_moving && motion_.from_rest) return false;
+    if (!motion_.goal || since >= status_doubt || !status_.on || status_.lock || status_.tlif || drive_.errors.at_limit()) return false;
+    if (position_at_ <= motion_.begun || fb_.velocity != 0) return true;
+    constexpr std::int64_t least_play = 3, most_play = 50;  // noise, friction and play of a shaft at its goal
+    const std::int64_t play = std::clamp<std::int64_t>(std::llabs(*motion_.goal - motion_.from) / 2, least_play, most_play);
+    return std::llabs(fb_.position - *motion_.goal) > play;
+}
+
 /// Status, alarms and what we know of the last motion, as the axis profile sees them.
 void Feedback::derive(Turn& t) {
-    const bool starting = motion_.kind != Motion::Kind::none && !motion_.seen_moving && t.now - motion_.begun < start_grace;
+    const bool starting = status_.stop && status_is_older(t.now);
     fb_.power = status_.on ? AxisFeedback::Power::on : AxisFeedback::Power::off;
     fb_.moving = !status_.stop || starting || rest_unread_;
     fb_.target_reached = status_.paif && !fb_.moving && motion_.kind != Motion::Kind::velocity;
@@ -202,6 +219,12 @@ void Feedback::begin_motion(const Motion& motion, Turn& t) {
     motion_ = motion;
     motion_.seen_moving = false;
     motion_.begun = t.now;
+    motion_.from_rest = stop_shown_;
+    motion_.from = fb_.position;
+    motion_.goal.reset();
+    const bool stands = !fb_.moving && position_known_;
+    if (motion.kind == Motion::Kind::absolute) motion_.goal = motion.target;
+    if (motion.kind == Motion::Kind::relative && stands) motion_.goal = fb_.position + motion.target;
     drive_.stops.ramp_over();
     drive_.together.unprepare();
     rest_unread_ = false;
@@ -296,6 +319,7 @@ void Errors::on_report(const Message& m, Turn& t) {
     if (i && i->answer == SetAnswer::desired) setting = make_set(drive_.address(), *i, 0, 0);
     const bool of_group_start = function == cw::BG && drive_.together.on_its_way(t.now);
     const bool of_blind = drive_.jobs.job().blind == function;
+    if (of_group_start) drive_.feedback.no_goal();
     const bool ours = of_group_start || of_blind || drive_.exchanges.late(about) || drive_.exchanges.late(setting);
     cause_ = ours && cause_ != Cause::foreign ? Cause::own : Cause::foreign;
     latest_ = report->code;

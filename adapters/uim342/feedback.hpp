@@ -3,6 +3,7 @@
 // Never invents: PAIF alone says that a target was reached, STOP that the axis stands, SON that it is on.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "adapters/uim342/drive_part.hpp"
@@ -17,7 +18,13 @@ struct Motion {
     std::int64_t speed = 0;   ///< absolute and relative: SP as sent, pulse/s; 0: not known
     bool seen_moving = true;  ///< STOP = 0 was seen since its BG
     Instant begun{};
+    bool from_rest = false;              ///< the last MS[0] before its BG has shown STOP: the next one without it is of this motion
+    std::int64_t from = 0;               ///< place at its BG
+    std::optional<std::int64_t> goal{};  ///< where it ends; nothing: it has no end, it was told to stop, or that place is not known
 };
+
+/// How late a status may be is not in the manual [L869-922]. A status that contradicts speed and position is not believed for this time.
+inline constexpr Duration status_doubt = std::chrono::seconds(2);
 
 class Errors : public Part {
 public:
@@ -68,6 +75,8 @@ public:
     void begin_motion(const Motion& motion, Turn& t);
     void no_motion() noexcept { motion_ = {}; }
     void slows_down(Instant now) noexcept;  ///< by JV=0 and BG
+    /// The motion was told to stop, or was refused.
+    void no_goal() noexcept { motion_.goal.reset(); }
     /// OG was acknowledged. `homed`: that was the homing.
     void origin_set(bool homed, Turn& t);
     void homing_begins() noexcept { fb_.homing_attained = fb_.homing_error = false; }
@@ -103,6 +112,7 @@ private:
     void set_bit(std::uint32_t bit, bool on) noexcept { status_.raw = on ? status_.raw | bit : status_.raw & ~bit; }
     [[nodiscard]] Course course() const noexcept;
     [[nodiscard]] bool safe_stop() const noexcept;
+    [[nodiscard]] bool status_is_older(Instant now) const noexcept;
     void suspect_restart(std::string why, Turn& t);
 
     Status status_;
@@ -110,7 +120,9 @@ private:
     Motion motion_;
     bool status_known_ = false, position_known_ = false;
     Instant status_at_{}, position_at_{};  ///< when MS[0] and MS[1] were said last
+    bool stop_shown_ = false;              ///< by the last MS[0]
     bool rest_unread_ = false;             ///< it stands, but the last MS[1] is from when it moved
+    Instant off_at_{};                     ///< our last command left SON off then; none: it left it on
     bool power_expected_ = false;          ///< MS[0] has shown SON since our last command left it on
 };
 

@@ -14,8 +14,6 @@
 namespace axisgate::uim342 {
 namespace {
 constexpr Duration look_again = std::chrono::milliseconds(100);
-// How late a status may be is not in the manual [L869-922]; an axis that stands is told to stop once more after this.
-constexpr Duration status_doubt = std::chrono::seconds(2);
 
 bool sets_motion(const Request* r) {
     if (!r) return false;
@@ -138,6 +136,7 @@ void Stops::answered(Stop& s, const Message& m, Turn& t) {
         return send(s, drive_.act(cw::BG), 0, t);
     }
     drive_.demand.stops(s.soft, t.now);
+    drive_.feedback.no_goal();
     if (s.soft) {
         drive_.feedback.slows_down(t.now);
     } else if (s.kind == Stop::Kind::quick) {

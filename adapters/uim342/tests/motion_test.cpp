@@ -83,6 +83,38 @@ TEST(Uim342Enable, ALockedDriveIsNotEnabled) {
     EXPECT_TRUE(s.b.received(5).empty());
 }
 
+/// The flags of MS[0] can be older than BG, by which a move would be at its end before it has begun.
+TEST(Uim342Moves, AStatusFromBeforeBGIsNotTheEndOfTheMotion) {
+    for (const bool relative_move : {false, true}) {
+        Started s;
+        s.f.paif = true;
+        s.b.run(100ms);
+        const Message before = s.f.say(0x11, s.f.status());
+        bool late = true;
+        s.f.script = [&](const Message& m) {
+            FakeNode::Verdict v;
+            if (late && m.function() == cw::MS && form_of(m) == Form::get && m.d[0] == 0) v.instead = before;
+            return v;
+        };
+        ASSERT_EQ(s.b.ask(relative_move ? relative(1000, 500) : absolute(1000, 500)).outcome, Outcome::accepted);
+        for (int i = 0; i < 10; ++i) {
+            s.b.run(50ms);
+            EXPECT_TRUE(s.b.feedback().moving && !s.b.feedback().target_reached) << i;
+        }
+        s.f.position = 998;
+        s.f.stop = s.f.paif = true;
+        s.f.speed = 0;
+        s.b.run(100ms);
+        EXPECT_TRUE(!s.b.feedback().moving && s.b.feedback().target_reached) << "it is where it was sent to";
+        s.f.position = 0;
+        ASSERT_EQ(s.b.ask(absolute(5000, 500)).outcome, Outcome::accepted);
+        s.b.run(1900ms);
+        EXPECT_TRUE(s.b.feedback().moving);
+        s.b.run(300ms);
+        EXPECT_FALSE(s.b.feedback().moving) << "a status that goes on saying so is believed in the end";
+    }
+}
+
 TEST(Uim342Disable, GoesAtOnce) {
     Started s;
     EXPECT_EQ(s.b.ask(Disable{}).outcome, Outcome::accepted);

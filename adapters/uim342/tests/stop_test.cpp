@@ -185,6 +185,26 @@ TEST(Uim342Enable, AStatusThatIsLaterThanTheDriverIsNoRestart) {
     EXPECT_EQ(r.b.notices_of("presence"), before + 1) << "now it has";
 }
 
+TEST(Uim342Disable, AStatusFromBeforeMO0IsNoRestart) {
+    Running r(0);
+    r.b.ask(Enable{});
+    r.b.run(100ms);
+    const auto before = r.b.notices_of("presence");
+    const Message on = r.f.say(0x11, r.f.status());
+    bool late = true;
+    r.f.script = [&](const Message& m) {
+        FakeNode::Verdict v;
+        if (late && m.function() == cw::MS && form_of(m) == Form::get && m.d[0] == 0) v.instead = on;
+        return v;
+    };
+    r.b.ask(Disable{});
+    r.b.run(300ms);
+    late = false;
+    r.b.run(300ms);
+    EXPECT_EQ(r.b.notices_of("presence"), before) << "it was told to switch off";
+    EXPECT_EQ(r.b.feedback().power, AxisFeedback::Power::off);
+}
+
 // --- halt ------------------------------------------------------------------------------------------------------------------------
 
 TEST(Uim342Halt, DeceleratesWithDcByJogSpeedZero) {

@@ -220,8 +220,8 @@ void Feedback::learnt(Turn& t) {
     judge(t);
 }
 
-/// A report may have been on its way while the axis was enabled, which SDO answers have shown. Reports that do not show the axis on within
-/// a second are believed.
+/// A report of an axis that is off, or in its quick stop, may have been on its way while the axis was enabled, which SDO answers have
+/// shown. Reports that do not show the axis enabled within a second are believed.
 bool Feedback::older_than_power(unsigned sw, Instant now) noexcept {
     constexpr Duration latest = std::chrono::seconds(1);
     if ((drive_.known.cw & 0x0Fu) != 0x0F || drive_.enabling()) {
@@ -229,7 +229,7 @@ bool Feedback::older_than_power(unsigned sw, Instant now) noexcept {
         power_shown_ = false;
         return false;
     }
-    power_shown_ = power_shown_ || !is_off(sw);
+    power_shown_ = power_shown_ || (sw & 0x6Fu) == 0x27 || (sw & 0x08u) != 0;  // a fault is no older report
     return !power_shown_ && now - enabled_at_ < latest;
 }
 

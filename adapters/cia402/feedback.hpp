@@ -63,7 +63,7 @@ private:
     bool status_new_ = false, motion_new_ = false, need_code_ = false;
     bool seen_ = false;                     ///< complete feedback has arrived since the start
     bool power_lost_ = false;               ///< the drive has left operation by itself, and has had no voltage since
-    bool power_shown_ = false;              ///< a report has shown the axis on since its control word enables it
+    bool power_shown_ = false;              ///< a report has shown operation or a fault since the control word enables the axis
     Instant enabled_at_{};                  ///< the last report before that control word
     std::uint32_t judged_ = 0;              ///< the status word of the picture
     int fallen_ = 0;                        ///< reports in succession of an axis that is off under a control word that enables it

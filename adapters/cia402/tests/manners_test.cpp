@@ -90,6 +90,13 @@ TEST(Cia402LateReports, ReportsFromBeforeAnEnableAreNoLossOfPower) {
         EXPECT_EQ(std::ranges::count(b.words, 0), 0) << "nobody has told it to switch off";
         EXPECT_EQ(b.axis.power, AxisFeedback::Power::on);
         EXPECT_NE(b.axis.velocity, 0);
+        ASSERT_TRUE(good(b.ask(QuickStop{})));
+        b.run(1s);
+        ASSERT_TRUE(good(b.ask(Enable{}))) << "out of the quick stop";
+        EXPECT_TRUE(good(b.ask(speed(4000))));
+        b.run(1s);
+        EXPECT_FALSE(b.axis.quick_stopping);
+        EXPECT_NE(b.axis.velocity, 0);
         ASSERT_TRUE(good(b.ask(Disable{})));
         b.run(1s);
         EXPECT_EQ(b.axis.power, AxisFeedback::Power::off);

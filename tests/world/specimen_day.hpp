@@ -65,6 +65,11 @@ private:
     /// whose outcome is not known is repeated only if it is an Enable.
     const Result* ask_with_remedy(const CommandBody& body, Duration limit, bool until_done = true);
     [[nodiscard]] static Move to(std::int64_t target, Move::Kind kind);
+    /// The same with ramps that the motor of this specimen can follow, where the law is not about its strength.
+    [[nodiscard]] Move gently(std::int64_t target, Move::Kind kind) const;
+    [[nodiscard]] std::int64_t gentle_ramp() const;
+    /// A motor that lacks force ends its motion with the drive's own fault, which is shown and told.
+    [[nodiscard]] bool gave_up() const;
     void told_as_not_done(const Result& r);
     void stops_and_serves();
 };

@@ -46,6 +46,82 @@ TEST(LinmotResponse, OtherContentsAreRead) {
     }
 }
 
+/// A response shows the state of some time ago, and the line is fast: each order takes effect before a response shows it.
+TEST(LinmotResponse, AStateOfSomeTimeAgoIsNotTakenForARefusal) {
+    for (const char* late : {"60", "250", "500"}) {
+        SCOPED_TRACE(late);
+        LineBench b(1, 115200, {{"status_late_ms", late}});
+        b.run(1s);
+        ASSERT_TRUE(b.enable());
+        const Result home = b.ask(Home{});
+        EXPECT_TRUE(good(home)) << home.text;
+        b.run(5s);
+        EXPECT_TRUE(b.axis().referenced);
+        const Result move = b.ask(to(9'000'000));
+        EXPECT_TRUE(good(move)) << move.text;
+        b.run(100ms);
+        const Result halt = b.ask(Halt{});
+        EXPECT_TRUE(good(halt)) << halt.text;
+        b.run(2s);
+        EXPECT_FALSE(b.axis().moving);
+        const Result stop = b.ask(QuickStop{});
+        EXPECT_TRUE(good(stop)) << stop.text;
+        const Result off = b.ask(Disable{});
+        EXPECT_TRUE(good(off)) << off.text;
+        EXPECT_EQ(b.axis().power, AxisFeedback::Power::off);
+    }
+}
+
+/// The drive waits in state 1 and shows bit 1 of the control word late: no safe input has taken its power.
+TEST(LinmotResponse, PowerThatIsNotShownYetWasNotTakenAway) {
+    LineBench b(1, 115200, {{"status_late_ms", "300"}});
+    constexpr std::uint8_t unlock[] = {0x01, 0x11, 0x05, 0x02, 0x00, 0x01, 0x00, 0x00, 0x04};
+    (void)b.bus->send(Frame::run(unlock), Priority::command, b.now);
+    b.run(3s);
+    ASSERT_EQ(b.drive().state(), 1);
+    const Ticket t = b.submit(Enable{});
+    for (int i = 0; i < 5000 && b.results[t].empty(); ++i) {
+        b.run(1ms);
+        ASSERT_FALSE(b.axis().safe_stop) << i << " ms behind the order";
+    }
+    ASSERT_EQ(b.results[t].size(), 1u);
+    EXPECT_TRUE(good(b.results[t][0])) << b.results[t][0].text;
+    EXPECT_EQ(b.hand("safe_voltage_enable", Value{false}), "");
+    b.run(500ms);
+    EXPECT_TRUE(b.axis().safe_stop) << "an input that takes it is still seen";
+}
+
+/// A drive whose inputs keep bit 1 from the beginning is told after a while.
+TEST(LinmotResponse, PowerThatIsNeverShownIsMissing) {
+    LineBench b;
+    EXPECT_EQ(b.hand("safe_voltage_enable", Value{false}), "");
+    b.run(1s);
+    EXPECT_FALSE(good(b.ask(Enable{})));
+    EXPECT_TRUE(b.axis().safe_stop || b.drive().state() == 0);
+}
+
+/// The search begins behind the answer that said it did not: it is ended.
+TEST(LinmotResponse, ASearchThatBeginsTooLateDoesNotGoOn) {
+    LineBench b(1, 115200, {{"status_late_ms", "500"}});
+    b.run(1s);
+    ASSERT_TRUE(b.enable());
+    b.hand("control_mask", Value{std::int64_t{0x0800}});  // somebody else holds bit 11 at 0
+    const Result home = b.ask(Home{});
+    EXPECT_EQ(home.reason, Reason::drive_refused) << home.text;
+    b.run(1s);
+    b.hand("control_mask", Value{std::int64_t{0}});
+    b.run(3s);
+    EXPECT_EQ(b.drive().state(), 8) << "bit 11 stayed in the control word";
+}
+
+TEST(LinmotResponse, ADriveThatAnswersNoReadOfItsRamIsServed) {
+    for (const char* content : {"0", "1", "2"}) {
+        LineBench b(1, 115200, {{"ram_access", "0"}, {"response_content", content}});
+        is_served(b, content);
+        EXPECT_NE(b.links[DriveId{0}].text.find("does not answer reads of RAM values"), std::string::npos) << b.links[DriveId{0}].text;
+    }
+}
+
 TEST(LinmotResponse, ADriveWithoutAnyPositionIsToldOnce) {
     LineBench b(1, 115200, {{"response_content", "3"}, {"ram_access", "0"}});
     b.run(10s);

@@ -13,6 +13,8 @@ namespace {
 constexpr Duration change_limit = std::chrono::seconds(10);            // of a change of mode: PAB programs and ramps end first
 constexpr Duration switching_limit = std::chrono::milliseconds(1500);  // of an axis that is not on yet when 0A97 has been acknowledged
 constexpr int rounds_limit = 4;
+constexpr int step_left = 1;     // of an enable: 0A81 was acknowledged
+constexpr int step_started = 2;  // 0603 was acknowledged; the operating status of an acknowledgement may be older than that
 
 std::string_view stop_advice(std::uint16_t q) {
     return q == quit::no_external_stop ? "the external-stop input must be defined and carry power before ONLINE starts"
@@ -30,12 +32,15 @@ bool Power::enable_goes_on(Axis& a, const Reply& reply, Turn& t) {
     Job& j = a.job;
     switch (j.request.code) {
         case code::start_online:
-            if (reply.quit == 0) drive_.started_by_us = true;
+            if (reply.quit == 0) {
+                drive_.started_by_us = true;
+                j.step = step_started;
+            }
             // Somebody may have changed the mode in the same moment: then it is decided anew.
             if (reply.quit != quit::no_external_stop && is_online(drive_.mode) && reply.quit != 0 && j.rounds++ < rounds_limit) return true;
             return !jobs_.ended_by_quit(a, reply, t, stop_advice(reply.quit));
         case code::abort_online:
-            j.step = 1;
+            j.step = step_left;
             return !jobs_.ended_by_quit(a, reply, t);
         case code::stop_axis:
             // Whatever was interrupted counts as finished now; a refusal means that there was nothing.
@@ -92,7 +97,9 @@ void Power::run_enable(Axis& a, const Reply* reply, Turn& t) {
     if (reply && !enable_goes_on(a, *reply, t)) return;
     const int mode = drive_.mode;
     if (j.rounds > rounds_limit) return jobs_.refuse(a, Reason::wrong_state, drive_.why_not_online(), t);
-    if (j.step == 1 && is_online(mode)) return jobs_.wait(a, j.limit == never ? t.now + change_limit : j.limit);
+    const bool not_shown =
+        (j.step == step_left && is_online(mode)) || (j.step == step_started && mode == status::home && drive_.error == 0);
+    if (not_shown) return jobs_.wait(a, j.limit == never ? t.now + change_limit : j.limit);
     j.step = 0;
     if (mode == status::online && drive_.error == 0) {
         if (a.status != 8) return jobs_.ask(a, code::stop_axis);
@@ -105,7 +112,7 @@ void Power::run_enable(Axis& a, const Reply* reply, Turn& t) {
                 "the control is in home position and the option online is manual: start ONLINE with the action online.start", t);
         const bool asked = std::ranges::any_of(drive_.axes, [&](const Axis& x) {
             return &x != &a && x.job.active() && x.job.request.code == code::start_online &&
-                   (x.job.in_flight || x.job.want == Job::Want::send);
+                   (x.job.in_flight || x.job.want == Job::Want::send || x.job.waits());
         });
         if (asked) return jobs_.wait(a, std::min(j.limit, t.now + change_limit));  // another axis is doing it
         ++j.rounds;

@@ -229,6 +229,29 @@ TEST(PacontrolTrouble, AStopAtTheControlInterruptsAndEnableGoesTheSafeWay) {
     EXPECT_EQ(b.ask(absolute(0), true).outcome, Outcome::done);
 }
 
+/// The operating status of an acknowledgement may be that of before: the start of ONLINE is neither sent again nor given up.
+TEST(PacontrolTrouble, AStartOfOnlineThatIsNotShownYetIsWaitedFor) {
+    Bench b(2);
+    b.start();
+    b.control.axes[0].referenced = b.control.axes[1].referenced = true;
+    Instant started = never;
+    b.control.script = [&](const Request& q) {
+        if (q.code == 0x0603 && started == never) {
+            started = b.now;
+            return FakeControl::say(framed("0;1;1;0;0;0", CheckForm::with_etx));
+        }
+        if (started != never && b.now < started + 300ms && q.code != 0x0603)
+            return FakeControl::say(framed(q.code == 0x190C ? "0;1;1;0;1;0.0" : "0;1;1;0;0;0", CheckForm::with_etx));
+        return FakeControl::Verdict{};
+    };
+    b.mark();
+    const Ticket x = b.command(Enable{}, true, 0), y = b.command(Enable{}, true, 1);
+    const Result first = b.answer(x), second = b.answer(y);
+    EXPECT_EQ(first.outcome, Outcome::done) << first.text;
+    EXPECT_EQ(second.outcome, Outcome::done) << second.text;
+    EXPECT_EQ(std::ranges::count(b.reported(), "0603;0;0;0"), 1);
+}
+
 TEST(PacontrolTrouble, AMalfunctionOfOneAxisIsItsOwn) {
     Enabled b(2);
     const Ticket one = b.command(absolute(100000), true, 0), two = b.command(absolute(20000), true, 1);

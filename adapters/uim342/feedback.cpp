@@ -182,7 +182,7 @@ void Feedback::on_input(const Notification& n, Turn& t) {
     set_bit(0x08u << (n.input - 1), n.rising);
     fb_.native_status = status_.raw;
     emit(t);
-    drive_.polls.soon(t.now);
+    drive_.polls.again(t.now);
 }
 
 void Feedback::on_finished(const Notification& n, Turn& t) {

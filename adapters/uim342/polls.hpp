@@ -16,6 +16,8 @@ public:
     void stop() noexcept;
     /// MS[0] as soon as possible.
     void soon(Instant now) noexcept { timer_.soon(now), speed_next_ = false; }
+    /// The same behind an MS[1] that is next: an input that chatters must not keep the position from being read.
+    void again(Instant now) noexcept { timer_.soon(now); }
     /// Who looks closely wants other periods.
     void look(const DriveSetup& setup) noexcept {
         if (pace_.take(setup)) timer_.hurry();

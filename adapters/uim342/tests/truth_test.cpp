@@ -210,6 +210,18 @@ TEST(Uim342Truth, CodesAreLegibleInTheCatalogue) {
     EXPECT_EQ(*form_now(catalogue(), Bench::point("DI"), [](Point) { return Value{}; }).max, 0x107);
 }
 
+/// Edges that come faster than two reads: position and end of motion are read all the same, and a halt is done.
+TEST(Uim342Truth, AnInputThatChattersDoesNotKeepThePositionFromBeingRead) {
+    Bench b(LineKind::bytes);
+    b.add(5).latency = 30ms;
+    b.start();
+    for (int i = 0; i < 200; ++i) {
+        b.say(message(5, cw::RT, std::array<std::uint8_t, 1>{static_cast<std::uint8_t>(1 + i % 2)}));
+        b.run(10ms);
+    }
+    EXPECT_LT(b.now - b.feedback().at, 400ms);
+}
+
 TEST(Uim342Truth, FramesWithTheOtherCrcAreTold) {
     for (const CrcMode mine : {CrcMode::twelve, CrcMode::thirteen}) {
         const CrcMode other = mine == CrcMode::twelve ? CrcMode::thirteen : CrcMode::twelve;

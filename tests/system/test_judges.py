@@ -25,7 +25,7 @@ def drive(name, *switches):
 
         def ready():
             assert process.poll() is None, said()
-            return next((line.split()[1] for line in said().splitlines() if line.startswith("ready ")), None)
+            return next((line.split()[1] for line in said().splitlines(True) if line.startswith("ready ") and line.endswith("\n")), None)
         try:
             yield until(ready, 15, f"ready of {name}")
             assert process.poll() is None, said()
@@ -92,7 +92,7 @@ def moved(g, reference, near, far, speed, ramp, close):
 
 LINMOT = (("--line", "tcp"),
           ("--line", "tcp", "--answer-ms", "0..60", "--chunk", "3", "--count", "5", "--old-state-ms", "120", "--homing-ms", "700", "--test-ms", "900"),
-          ("--line", "tcp", "--old-state-ms", "300"),
+          ("--line", "tcp", "--old-state-ms", "300", "--no-ram"),
           ("--line", "pty", "--noise", "0.2", "--drop", "17", "--others", "3", "--forced", "--no-ram", "--boot-ms", "500"))
 
 
@@ -152,7 +152,7 @@ def test_a_pacontrol_host_of_the_manual_moves_the_twin(folder):
 
 
 UIM342 = ((("--line", "tcp"), {}),
-          (("--line", "tcp", "--crc", "13", "--answer-ms", "0..60", "--chunk", "7", "--flags-late-ms", "120", "--reserved", "85"), {"crc": "auto"}),
+          (("--line", "tcp", "--crc", "13", "--answer-ms", "0..60", "--chunk", "7", "--flags-late-ms", "120", "--chatter-ms", "20", "--reserved", "85"), {"crc": "auto"}),
           (("--line", "pty", "--crc", "none", "--noise", "0.1", "--drop", "13", "--chatter-ms", "40", "--rt-first", "--microsteps", "32"), {"crc": "none"}))
 
 

@@ -98,7 +98,7 @@ LINMOT = (("--line", "tcp"),
 
 def test_linmot_drives_of_the_manual_are_moved(folder):
     for n, switches in enumerate(LINMOT):
-        with drive("linmot_drive", *switches) as uri, Gateway(make(folder, n), site("linmot", uri, 17)) as g:
+        with drive("linmot_drive", *switches) as uri, Gateway(make(folder, n), site("linmot", uri, 17, {"timing": {"reply_timeout_ms": 400}})) as g:
             in_motion(g, {"command": "home"}, 300000, 3000000, 1000000, 10000000, 5)
 
 

@@ -213,8 +213,9 @@ TEST(Uim342Truth, CodesAreLegibleInTheCatalogue) {
 /// Edges that come faster than two reads: position and end of motion are read all the same, and a halt is done.
 TEST(Uim342Truth, AnInputThatChattersDoesNotKeepThePositionFromBeingRead) {
     Bench b(LineKind::bytes);
-    b.add(5).latency = 30ms;
+    FakeNode& node = b.add(5);
     b.start();
+    node.latency = 30ms;
     for (int i = 0; i < 200; ++i) {
         b.say(message(5, cw::RT, std::array<std::uint8_t, 1>{static_cast<std::uint8_t>(1 + i % 2)}));
         b.run(10ms);

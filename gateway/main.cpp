@@ -136,10 +136,26 @@ struct CommandLine {
     }
 
     void add_rehearse() {
-        rehearse = app.add_subcommand("rehearse", "run a recipe in virtual time against many specimens of the site's drives");
-        rehearse->add_option("--recipe", rehearse_options.recipe, "name of a stored recipe, or a file (.json)")
-            ->required()
-            ->type_name("NAME|FILE.json");
+        rehearse = app.add_subcommand("rehearse", "run a recipe or a program in virtual time against many specimens of the site's drives");
+        auto* recipe = rehearse->add_option("--recipe", rehearse_options.recipe, "name of a stored recipe, or a file (.json)")
+                           ->type_name("NAME|FILE.json");
+        auto* program =
+            rehearse
+                ->add_option("--program", rehearse_options.program,
+                             "a command of the shell that commands the axes over Modbus/TCP, at the address AXISGATE_MODBUS of its "
+                             "environment")
+                ->type_name("COMMAND")
+                ->excludes(recipe);
+        rehearse
+            ->add_option("--time-scale", rehearse_options.time_scale,
+                         "with --program: how many times as fast the time passes, 0.1 to 1000 (default 10)")
+            ->check(CLI::Range(0.1, 1000.0))
+            ->needs(program)
+            ->type_name("X");
+        rehearse->add_option("--limit", rehearse_options.limit_s, "with --program: its longest virtual time in seconds (default 600)")
+            ->check(CLI::Range(1, 86400))
+            ->needs(program)
+            ->type_name("S");
         rehearse->add_option("--specimens", rehearse_options.specimens, "seeds and names, such as 1..100 (default) or 0,17,slow,weak")
             ->type_name("LIST");
         rehearse

@@ -59,14 +59,17 @@ struct TwinOptions {
 [[nodiscard]] int command_twin(const TwinOptions& options);
 
 struct RehearseOptions {
-    std::string site_file;  ///< empty: the stored site, with the memories of its twins
-    std::string recipe;     ///< a stored recipe, or a file (*.json)
+    std::string site_file;   ///< empty: the stored site, with the memories of its twins
+    std::string recipe;      ///< a stored recipe, or a file (*.json); empty: a program
+    std::string program;     ///< a command that uses the Modbus door; empty: a recipe
+    double time_scale = 10;  ///< of a program: how many times as fast the time of the gateway passes
+    int limit_s = 600;       ///< of a program, in virtual time
     std::string specimens = "1..100";
     std::vector<std::string> fixed;      ///< "family=specimen"
     std::vector<std::string> arguments;  ///< "name=value" of the recipe
     bool json = false;
 };
-/// Plays a recipe against specimens of the site's drives in virtual time and prints a table. Exit code 1 if it fails with one of them.
+/// Plays a recipe or a program against specimens of the site's drives in virtual time and prints a table. Exit code 1 if it fails with one.
 [[nodiscard]] int command_rehearse(const Config& config, const RehearseOptions& options);
 
 struct CompareOptions {

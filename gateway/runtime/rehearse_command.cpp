@@ -1,5 +1,5 @@
-// Plays a recipe against many specimens of the drives of a site and prints one row for each. The gateway of this host may run: its database
-// is only read, and no line is opened. The rehearsals share nothing, so each processor plays some of them.
+// Plays a recipe or a program against many specimens of the drives of a site and prints one row for each. The gateway of this host may run:
+// its database is only read, and no line is opened. The rehearsals share nothing, so each processor plays some of them.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -12,13 +12,16 @@
 #include "gateway/core/assets.hpp"
 #include "gateway/core/json_read.hpp"
 #include "gateway/doors/http/words.hpp"
+#include "gateway/runtime/catalogues.hpp"
 #include "gateway/runtime/command_tables.hpp"
 #include "gateway/runtime/commands.hpp"
 #include "gateway/runtime/files.hpp"
+#include "gateway/runtime/rehearse_program.hpp"
 #include "gateway/runtime/site_file.hpp"
 #include "gateway/runtime/warm_descriptions.hpp"
 #include "gateway/services/recipes/recipe.hpp"
 #include "gateway/services/recipes/recipe_rehearsal.hpp"
+#include "gateway/services/recipes/rehearsal_gateway.hpp"
 #include "gateway/store/store.hpp"
 
 namespace axisgate {
@@ -38,17 +41,26 @@ public:
         std::string wrong;
         specimens_ = read_specimens(options_.specimens, wrong);
         if (!wrong.empty()) return usage("--specimens: " + wrong);
-        if (options_.recipe.empty()) return usage("--recipe: name a stored recipe or a file of one, such as cycle.json");
+        if (options_.recipe.empty() && options_.program.empty())
+            return usage("--recipe: name a stored recipe or a file of one, such as cycle.json; or --program: a command of the shell");
         if (const int code = pairs(); code != exit_good) return code;
-        if ((options_.site_file.empty() || !recipe_is_file()) && !open_store()) return exit_failed;
+        const bool stored_recipe = options_.program.empty() && !recipe_is_file();
+        if ((options_.site_file.empty() || stored_recipe) && !open_store()) return exit_failed;
         if (const int code = read_site(); code != exit_good) return code;
-        if (const int code = read_recipe_document(); code != exit_good) return code;
+        if (options_.program.empty()) {
+            if (const int code = read_recipe_document(); code != exit_good) return code;
+        } else if (!wish_.arguments.empty()) {
+            return usage("--argument: only a recipe has arguments; write those of the program into its command");
+        }
         wish_.lease = std::chrono::seconds(config_.authority_lease_s);
         wish_.by = {http::clients, std::make_shared<const std::string>("axisgate rehearse"), nullptr};
         return exit_good;
     }
 
-    [[nodiscard]] int play() {
+    [[nodiscard]] int play() { return options_.program.empty() ? play_recipe() : play_program(); }
+
+private:
+    [[nodiscard]] int play_recipe() {
         std::vector<SiteFault> faults;
         const RecipeRehearsal rehearsal(families_, std::move(wish_), faults);
         for (const auto& f : faults)
@@ -56,11 +68,44 @@ public:
                                    : fmt::format("{}:{}: {} ({}); {}", options_.recipe, line_of_pointer(text_, f.pointer), f.text,
                                                  f.pointer.empty() ? "/" : f.pointer, f.remedy));
         if (!faults.empty()) return exit_usage;
+        return play_each([&](const std::string& specimen) { return rehearsal.play(specimen); });
+    }
+
+    [[nodiscard]] int play_program() {
+        std::vector<SiteFault> faults;
+        check_fixed(wish_.fixed, families_, faults);
+        if (wish_.site.axes.empty()) faults.push_back({"", "the site has no axis", "give one with axes", false});
+        for (const auto& f : faults)
+            complain(fmt::format("{}; {}", f.text, f.remedy));
+        if (!faults.empty()) return exit_usage;
+        ProgramRehearsalWish all;
+        all.command = options_.program;
+        all.time_scale = options_.time_scale;
+        all.limit = std::chrono::seconds(options_.limit_s);
+        all.site = simulated_site(wish_.site, families_);
+        all.memory = wish_.memory;
+        all.lease = wish_.lease;
+        all.registers.word_order = config_.low_word_first ? MapWordOrder::low_first : MapWordOrder::high_first;
+        all.registers.gaps = config_.map_gaps;
+        std::vector<std::string> unread;
+        all.registers.languages = load_languages(unread);
+        for (const auto& fault : unread)
+            complain(fault);
+        return play_each([&](const std::string& specimen) {
+            ProgramRehearsalWish one = all;
+            one.site = site_of_specimen(std::move(one.site), specimen, wish_.fixed);
+            return rehearse_program(families_, one, specimen);
+        });
+    }
+
+    /// As many at once as there are processors.
+    template <class Play>
+    [[nodiscard]] int play_each(const Play& play) {
         std::vector<RehearsedSpecimen> rows(specimens_.size());
         std::atomic<std::size_t> next{0};
         const auto work = [&] {
             for (std::size_t i = next++; i < rows.size(); i = next++)
-                rows[i] = rehearsal.play(specimens_[i]);
+                rows[i] = play(specimens_[i]);
         };
         std::vector<std::jthread> others;
         for (std::size_t i = 1; i < std::min<std::size_t>(std::thread::hardware_concurrency(), rows.size()); ++i)
@@ -70,7 +115,6 @@ public:
         return print(rows);
     }
 
-private:
     static int usage(const std::string& text) {
         complain(text);
         return exit_usage;
@@ -162,10 +206,11 @@ private:
             json::array list;
             for (const auto& r : rows)
                 list.push_back(to_json(r));
-            fmt::print(
-                "{}\n",
-                json::serialize(json::object{
-                    {"recipe", options_.recipe}, {"passed", passed}, {"failed", rows.size() - passed}, {"specimens", std::move(list)}}));
+            fmt::print("{}\n", json::serialize(json::object{{options_.program.empty() ? "recipe" : "program",
+                                                             options_.program.empty() ? options_.recipe : options_.program},
+                                                            {"passed", passed},
+                                                            {"failed", rows.size() - passed},
+                                                            {"specimens", std::move(list)}}));
         } else {
             std::vector<TableRow> table;
             for (const auto& r : rows)

@@ -1,12 +1,16 @@
-// One cell is one job with copies of the site and of the twins' memories; nothing is shared with the gateway's own engine.
+// One cell or one specimen is one job with copies of the site, of its descriptions and of the twins' memories; nothing is shared with the
+// gateway's own engine.
 #include "gateway/runtime/warm_rehearsal.hpp"
 
 #include <sched.h>
 
 #include <boost/asio/post.hpp>
+#include <optional>
 
 #include "gateway/engine/rehearsal.hpp"
 #include "gateway/runtime/site_file.hpp"
+#include "gateway/services/recipes/recipe_rehearsal.hpp"
+#include "gateway/site/descriptions.hpp"
 
 namespace axisgate {
 namespace {
@@ -15,6 +19,12 @@ void stand_back() {
     const sched_param none{};
     (void)sched_setscheduler(0, SCHED_IDLE, &none);
 }
+
+/// A rehearsal refers to its families, whose shelf belongs to the service thread; this one has a copy.
+struct OwnRehearsal {
+    Families families;
+    std::optional<RecipeRehearsal> rehearsal{};
+};
 }  // namespace
 
 WarmRehearsal::~WarmRehearsal() {
@@ -32,6 +42,33 @@ void WarmRehearsal::rehearse(std::shared_ptr<const SiteState> site, RehearsalWis
                           auto cell = axisgate::rehearse(families_, site->site, memory, wish);
                           threads_.answer([then = std::move(then), cell = std::move(cell)]() mutable { then(std::move(cell)); });
                       });
+}
+
+void WarmRehearsal::prepare_recipe(RecipeRehearsalWish wish, Prepared then) {
+    wish.lease = lease_;
+    wish.memory = read_site_memory(threads_.reader, wish.site);
+    auto own = std::make_shared<OwnRehearsal>(OwnRehearsal{families_});
+    if (families_.descriptions) own->families.descriptions = std::make_shared<DescriptionShelf>(*families_.descriptions);
+    boost::asio::post(thread_, [this, own = std::move(own), wish = std::move(wish), then = std::move(then)]() mutable {
+        stand_back();
+        std::vector<SiteFault> faults;
+        own->rehearsal.emplace(own->families, std::move(wish), faults);
+        std::shared_ptr<const RecipeRehearsal> made;
+        if (faults.empty()) made = {own, &*own->rehearsal};
+        threads_.answer([then = std::move(then), made = std::move(made), faults = std::move(faults)]() mutable {
+            then(std::move(made), std::move(faults));
+        });
+    });
+}
+
+void WarmRehearsal::rehearse_recipe(std::shared_ptr<const RecipeRehearsal> rehearsal, std::string specimen,
+                                    std::shared_ptr<const std::atomic<bool>> ended, std::function<void(RehearsedSpecimen)> then) {
+    boost::asio::post(thread_, [this, rehearsal = std::move(rehearsal), specimen = std::move(specimen), ended = std::move(ended),
+                                then = std::move(then)]() mutable {
+        stand_back();
+        auto row = rehearsal->play(specimen, *ended);
+        threads_.answer([then = std::move(then), row = std::move(row)]() mutable { then(std::move(row)); });
+    });
 }
 
 }  // namespace axisgate

@@ -1,7 +1,8 @@
-// The rehearsal port: plays each cell on a thread of its own, which gives way to all others. At its end the service waits for one cell at
-// most.
+// The rehearsal port: plays each cell and each specimen on a thread of its own, which gives way to all others. At its end the service waits
+// for one cell at most; a specimen is given up.
 #pragma once
 
+#include <atomic>
 #include <boost/asio/thread_pool.hpp>
 
 #include "gateway/runtime/warm_threads.hpp"
@@ -24,6 +25,9 @@ public:
     }
     void rehearse(std::shared_ptr<const SiteState> site, RehearsalWish wish, std::function<void(RehearsalCell)> then) override;
     [[nodiscard]] Duration watchdog() const override { return watchdog_; }
+    void prepare_recipe(RecipeRehearsalWish wish, Prepared then) override;
+    void rehearse_recipe(std::shared_ptr<const RecipeRehearsal> rehearsal, std::string specimen,
+                         std::shared_ptr<const std::atomic<bool>> ended, std::function<void(RehearsedSpecimen)> then) override;
 
 private:
     const WarmThreads& threads_;

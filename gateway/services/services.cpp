@@ -10,6 +10,7 @@ Services::Services(const Ports& ports, std::function<Instant()> clock, std::shar
       recipes(std::make_shared<RecipeService>(ports, clock)),
       alarms(std::make_shared<AlarmService>(ports, clock)),
       rehearsals(std::make_shared<Rehearsals>(ports)),
+      recipe_rehearsals(std::make_shared<RecipeRehearsals>(ports)),
       boot_check(std::make_shared<BootCheck>(ports, jobs)) {
     recipes->rearm = [this] {
         if (rearm) rearm();

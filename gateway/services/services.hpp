@@ -17,6 +17,7 @@
 #include "gateway/services/parameters/axis_jobs.hpp"
 #include "gateway/services/parameters/boot_check.hpp"
 #include "gateway/services/ports.hpp"
+#include "gateway/services/recipes/recipe_rehearsals.hpp"
 #include "gateway/services/recipes/recipe_service.hpp"
 #include "gateway/services/site/stage_owner.hpp"
 
@@ -46,6 +47,7 @@ public:
     const std::shared_ptr<RecipeService> recipes;
     const std::shared_ptr<AlarmService> alarms;
     const std::shared_ptr<Rehearsals> rehearsals;                         ///< of loss of command, on models
+    const std::shared_ptr<RecipeRehearsals> recipe_rehearsals;            ///< of recipes, against specimens
     const std::shared_ptr<AxisJobs> jobs = std::make_shared<AxisJobs>();  ///< many parameters of one axis, one after the other
     const std::shared_ptr<BootCheck> boot_check;                          ///< of stored parameters, when a drive answers
     const std::shared_ptr<ChangeQueue> site_changes = std::make_shared<ChangeQueue>();

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # bench: runs every benchmark of a release build, in about a quarter of an hour, of which `tail` takes half. For an idle machine; not a part of the ordinary tests.
-#   tests/bench/run.sh BUILD_DIR [NAME...]      NAME: round, recorder, write, tail, mcode, linmot, cia402, cia402_program, program, modbus, modbus_program, modbus_rtu, enip, dds, http, stream, page, scope, overview
+#   tests/bench/run.sh BUILD_DIR [NAME...]      NAME: round, specimen, rehearse, recorder, write, tail, mcode, linmot, cia402, cia402_program, program, modbus, modbus_program, modbus_rtu, enip, dds, http, stream, page, scope, overview
 # In: BUILD_DIR/bench_* and BUILD_DIR/axisgate; node and Chromium for what a browser shows. Out: per figure the ratio, the limit it is measured against, and both figures; at the end
 # "N passed, N failed", where what is beyond its limit has failed.
 set -euo pipefail
@@ -38,6 +38,8 @@ bench() {
 wanted=("$@")
 echo "load of the machine before: $(cut -d' ' -f1-3 /proc/loadavg), processors: $(nproc)"
 bench round 60 "$(find_program bench_round)"
+bench specimen 300 "$(find_program bench_specimen)"
+bench rehearse 300 /usr/bin/python3 "$here/bench_rehearse.py" "$(find_program axisgate)"
 bench recorder 120 "$(find_program bench_recorder)"
 bench write 60 "$(find_program bench_write)" "$(find_program axisgate)"
 bench tail 900 "$(find_program bench_tail)" "$(find_program axisgate)"

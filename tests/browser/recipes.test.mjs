@@ -283,3 +283,33 @@ test('a rehearsal is a step: what the model of the drive offers is offered, and 
   assert.deepEqual(page.faults(), []);
   await page.context().close();
 });
+
+test('a recipe is rehearsed against specimens: a row for each, the reason of a failure, a specimen in words; the machine stays where it is', async () => {
+  const document = {
+    steps: [
+      { enable: { axis: 'feeder' } },
+      { wait_for: { axis: 'feeder', point: 'state', is: 'operation_enabled', timeout_s: 20 } },
+      { command: { axis: 'feeder', command: 'move_relative', position: 1, velocity: 20, wait_s: 30 } },
+      { check: { axis: 'feeder', point: 'moving', is: true, text: 'it must not have stopped' } },
+    ],
+  };
+  assert.equal((await program.call('PUT', '/recipes/hundred', document)).status, 201);
+  const before = (await program.call('GET', '/axes/feeder')).body.position;
+  const page = await open(browser, `${program.url}/recipes/hundred`);
+  await page.getByLabel('Specimens to rehearse').fill('0..3,slow');
+  await page.getByRole('button', { name: 'Rehearse', exact: true }).click();
+  await page.locator('[data-field=rehearsal-sum][data-state=done]').waitFor({ timeout: 60_000 });
+  const rows = page.getByRole('region', { name: 'Rehearsed specimens' }).locator('tr[data-specimen]');
+  await becomes('there is a row for each', () => rows.count(), 5);
+  const first = page.locator('tr[data-specimen="0"]');
+  assert.equal(await first.getAttribute('data-passed'), 'false', 'the check of the last step does not hold for the drive of the manual');
+  assert.match(await first.innerText(), /Step 4: .*it must not have stopped/s);
+  await page.locator('tr[data-specimen=slow] button').click();
+  await until('its words are shown', async () => /reply_ms/.test(await page.locator('[data-field=specimen-words]').innerText().catch(() => '')));
+  assert.equal((await program.call('GET', '/axes/feeder')).body.position, before);
+  await page.getByLabel('Specimens to rehearse').fill('fast');
+  await page.getByRole('button', { name: 'Rehearse', exact: true }).click();
+  await until('the refusal is told', async () => /write a seed/.test(await page.locator('[data-field=rehearsal-told]').innerText()));
+  assert.deepEqual(page.faults(), []);
+  await page.context().close();
+});

@@ -62,7 +62,8 @@ void feed_request(std::string_view text) {
                                 std::make_shared<AxisJobs>(),
                                 nullptr,
                                 alarms,
-                                std::make_shared<Rehearsals>(gateway)}};
+                                std::make_shared<Rehearsals>(gateway),
+                                std::make_shared<RecipeRehearsals>(gateway)}};
     Request request;
     const auto first = line_of(text);
     request.method = method_named(first.substr(0, first.find(' ')));

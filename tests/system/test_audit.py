@@ -77,6 +77,8 @@ TABLE = [
     ("putRecipe", {"recipe": "warm-up"}, RECIPE, 201, "recipe", "made"),
     ("runRecipe", {"recipe": "warm-up"}, {"arguments": {"pause": 30}}, 202, "recipe", "started"),
     ("cancelRecipeRun", {"recipe": "warm-up", "run": "1"}, None, 202, "recipe", "the end of recipe warm-up run 1"),
+    ("rehearseRecipe", {"recipe": "warm-up"}, {"specimens": "1..1000"}, 202, "rehearsal", "recipe warm-up is rehearsed against 1000 specimens"),
+    ("cancelRecipeRehearsal", {"recipe": "warm-up"}, None, 202, "rehearsal", "the rehearsal of recipe warm-up was ended"),
     ("removeRecipe", {"recipe": "warm-up"}, None, 204, "recipe", "deleted"),
     ("armCapture", {}, {"name": "wave", "axes": ["feeder"], "trigger": {"kind": "state", "state": "warning"}}, 201, "capture", "armed"),
     ("renameCapture", {"capture": "wave"}, {"name": "other"}, 200, "capture", "wave was renamed to other"),

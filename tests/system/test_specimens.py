@@ -1,6 +1,7 @@
 """Specimens by the program itself: their words, twins of them on a line, and a recipe that is rehearsed against many."""
 import json
 import pathlib
+import sys
 
 import harness
 from harness import Process, run
@@ -94,3 +95,96 @@ def test_a_stored_recipe_is_rehearsed_while_the_gateway_runs(folder, gateway):
     code, _, err = run("rehearse", "--data", data, "--recipe", "nobody")
     assert code == 2 and "no stored recipe nobody" in err, (code, err)
     assert gateway.get("/families/uim342/specimens/slow")["values"] == json.loads(run("specimen", "uim342", "slow", "--json", check=0)[1])["values"]
+
+
+def rehearse_program(folder, command, *more):
+    code, out, err = run("rehearse", "--site", site_file(folder), "--program", command, "--json", *more)
+    assert out, (code, err)
+    return code, json.loads(out)
+
+
+def test_a_program_outside_is_told_its_door_and_its_specimen_and_tells_its_step(folder):
+    code, told = rehearse_program(folder, 'echo step: first; echo "$AXISGATE_MODBUS $AXISGATE_TIME_SCALE $AXISGATE_SPECIMEN"; exit 3', "--specimens", "0,slow", "--time-scale", "50")
+    assert code == 1 and told["passed"] == 0 and [s["specimen"] for s in told["specimens"]] == ["0", "slow"], told
+    for s in told["specimens"]:
+        host, scale, specimen = s["text"].split()
+        assert host.startswith("127.0.0.1:") and float(scale) == 50 and specimen == s["specimen"] and s["step"] == "first", s
+    code, told = rehearse_program(folder, "exit 3", "--specimens", "0")
+    assert told["specimens"][0]["text"] == "the program ended with code 3 and said nothing", told
+    code, told = rehearse_program(folder, "sleep 1000", "--specimens", "0", "--time-scale", "100", "--limit", "20")
+    assert code == 1 and "not at its end after 20 s" in told["specimens"][0]["text"], told
+    assert rehearse_program(folder, "true", "--specimens", "0..3")[0] == 0
+    site = site_file(folder)
+    for wrong in (("--program", "true", "--recipe", "x.json"), ("--program", "true", "--argument", "a=1"), ("--program", "true", "--time-scale", "0"), ("--time-scale", "5"),
+                  ("--program", "true", "--family-specimen", "nobody=1"), ()):
+        assert run("rehearse", "--site", site, *wrong)[0] == 2, wrong
+
+
+READ_AND_MOVE = """
+import os, socket, struct, sys, time
+host, port = os.environ["AXISGATE_MODBUS"].rsplit(":", 1)
+s = socket.create_connection((host, int(port)))
+def ask(pdu):
+    s.sendall(struct.pack(">HHHB", 1, 0, len(pdu) + 1, 1) + pdu)
+    data = b""
+    while len(data) < 6 or len(data) < 6 + struct.unpack(">H", data[4:6])[0]:
+        data += s.recv(300)
+    return data[7:]
+def read():
+    return struct.unpack(">10H", ask(struct.pack(">BHH", 3, 0, 10))[2:])
+assert read()[9] & 1, "it is not online when the program begins"
+begun = time.monotonic()
+for word in (6, 7, 15):
+    ask(struct.pack(">BHH", 6, 32, word))
+    while read()[0] & 0x6F not in {6: (0x21, 0x23, 0x27), 7: (0x23, 0x27), 15: (0x27,)}[word]:
+        pass
+print("enabled", ask(struct.pack(">BHH", 6, 33, 3)).hex())
+ask(struct.pack(">BHHBHH", 16, 38, 2, 4, 0, 32000))
+ask(struct.pack(">BHHBHH", 16, 42, 2, 4, 0, 3200))
+first, at = read()[2:4], time.monotonic()
+while time.monotonic() - at < 0.4:
+    last = read()[2:4]
+way = ((last[0] << 16) + last[1] - (first[0] << 16) - first[1]) / 3200 / (time.monotonic() - at)
+print("way per second of this computer:", round(way, 2))
+sys.exit(0 if 5 < way < 11 else 1)
+"""
+
+
+def test_the_time_of_the_gateway_passes_by_the_scale(folder):
+    program = pathlib.Path(folder) / "program.py"
+    program.write_text(READ_AND_MOVE)
+    code, told = rehearse_program(folder, f"{sys.executable} {program}", "--specimens", "0", "--time-scale", "10")
+    assert code == 0, told
+
+
+def test_the_plc_program_of_the_examples_copes_with_specimens_of_three_families(folder):
+    program, site = harness.EXAMPLES / "plc_program.py", harness.EXAMPLES / "plc-site.json"
+    code, out, err = run("rehearse", "--site", str(site), "--program", f"{sys.executable} {program}", "--specimens", "0,3,slow", "--time-scale", "10", "--json")
+    told = json.loads(out)
+    assert code == 0 and told["passed"] == 3, (told, err)
+    # It does not pass with anything: with an axis that may not go to its positions it says which one, and at which step.
+    document = json.loads(site.read_text())
+    next(a for a in document["axes"] if a["name"] == "feeder").update({"position_min": -10, "position_max": 3})
+    narrow = pathlib.Path(folder) / "narrow.json"
+    narrow.write_text(json.dumps(document))
+    code, out, err = run("rehearse", "--site", str(narrow), "--program", f"{sys.executable} {program} feeder", "--specimens", "0", "--time-scale", "20", "--json")
+    row = json.loads(out)["specimens"][0]
+    assert code == 1 and row["step"].startswith("feeder: move to 16000, attempt 8") and "refused" in row["text"], row
+    code, out, err = run("rehearse", "--site", str(site), "--program", f"{sys.executable} {program} nobody", "--specimens", "0", "--json")
+    assert code == 1 and json.loads(out)["specimens"][0]["text"].startswith("there is no axis nobody"), (out, err)
+
+
+def test_a_recipe_is_rehearsed_over_http_while_its_axis_stands(gateway):
+    gateway.send("PUT", "/recipes/there", MOVES, 201)
+    before = gateway.axis()["position"]
+    state = gateway.send("POST", "/recipes/there/rehearsal", {"specimens": "0..4,weak", "families": {"uim342": "0"}}, 202)
+    assert state["state"] == "running" and state["total"] == 6, state
+    done = harness.until(lambda: (s := gateway.get("/recipes/there/rehearsal"))["state"] == "done" and s, 60, "the rehearsal's end")
+    assert done["passed"] == 6 and {s["seconds"] for s in done["specimens"]} == {done["specimens"][0]["seconds"]}, "one drive, named six times"
+    assert gateway.axis()["position"] == before and not gateway.axis()["moving"]
+    # One that takes long is ended in the middle of a specimen.
+    gateway.send("PUT", "/recipes/long", {"steps": [{"enable": {"axis": "feeder"}}, {"wait_s": 86000}], "timeout_s": 86400}, 201)
+    gateway.send("POST", "/recipes/long/rehearsal", {"specimens": "1..1000"}, 202)
+    gateway.send("DELETE", "/recipes/long/rehearsal", None, 202)
+    harness.until(lambda: gateway.get("/recipes/long/rehearsal")["state"] == "cancelled", 20, "its end")
+    assert gateway.send("POST", "/recipes/there/rehearsal", {"specimens": "0"}, 202)["state"] == "running"

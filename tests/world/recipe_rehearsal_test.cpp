@@ -136,6 +136,21 @@ TEST_F(RecipeRehearsals, AreNotBegunWithARecipeThatDoesNotFitTheSite) {
     EXPECT_EQ(faults[0].pointer, "/steps/0/enable/axis");
 }
 
+TEST_F(RecipeRehearsals, AreNotBegunWithoutAnAxis) {
+    const RecipeRehearsal none(with_freedoms(), wish(R"({"steps": [{"wait_s": 1}]})"), faults);
+    ASSERT_EQ(faults.size(), 1u);
+    EXPECT_NE(faults[0].text.find("the recipe uses no axis"), std::string::npos) << faults[0].text;
+}
+
+TEST_F(RecipeRehearsals, AreGivenUpWhenTheyAreEnded) {
+    const RecipeRehearsal rehearsal(with_freedoms(), wish(R"({"steps": [{"enable": {"axis": "a1"}}, {"wait_s": 50000}]})"), faults);
+    ASSERT_TRUE(faults.empty());
+    const std::atomic<bool> ended{true};
+    const auto row = rehearsal.play("0", ended);
+    EXPECT_FALSE(row.passed);
+    EXPECT_LT(row.seconds, 1);
+}
+
 TEST_F(RecipeRehearsals, EveryFamilyPassesAsItsManualShowsIt) {
     for (const FamilyEntry& e : with_freedoms().entries) {
         for (const Subject& s : wires_of(e)) {

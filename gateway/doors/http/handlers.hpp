@@ -58,6 +58,7 @@ struct Context {
                                                                                   ///< accepted
     std::shared_ptr<AlarmService> alarms{};                                       ///< the list of alarms; must be set for the service
     std::shared_ptr<Rehearsals> rehearsals{};                                     ///< of loss of command; must be set for the service
+    std::shared_ptr<RecipeRehearsals> recipe_rehearsals{};                        ///< against specimens; must be set for the service
     std::shared_ptr<AxisTexts> axis_texts = std::make_shared<AxisTexts>();        ///< the answers of GET /axes/{name}
     std::shared_ptr<StageOwner> stages = std::make_shared<StageOwner>();          ///< the owner of the staged site
     std::shared_ptr<ClientsSeen> clients = std::make_shared<ClientsSeen>();       ///< the candidates for a hand-over
@@ -260,6 +261,9 @@ Handled run_recipe(Call&, const RecipeDocuments&);
 Handled list_recipe_runs(Call&, const RecipeDocuments&);
 Handled get_recipe_run(Call&);
 Handled cancel_recipe_run(Call&);
+Handled get_recipe_rehearsal(Call&, const RecipeDocuments&);
+Handled rehearse_recipe(Call&, const RecipeDocuments&);
+Handled cancel_recipe_rehearsal(Call&, const RecipeDocuments&);
 // --- handlers_snapshots.cpp -------------------------------------------------------------------------------------------
 Handled list_snapshots(Call&, const Snapshots&);
 Handled take_snapshot(Call&, const SitePort&, const Snapshots&);

@@ -97,4 +97,38 @@ Handled cancel_recipe_run(Call& c) {
                  [](const json::object& report) { return json_response(report, 202); });
 }
 
+Handled get_recipe_rehearsal(Call& c, const RecipeDocuments& recipes) {
+    std::optional<Response> fault;
+    const auto first = query_whole(c, "first", 0, RecipeRehearsals::most_specimens, 0, fault);
+    if (fault) return *fault;
+    return given(recipes.find(c.names[0]), [&](const KeptRecipe& kept) {
+        return json_response(c.context.recipe_rehearsals->state(c.names[0], kept.tag(), static_cast<std::size_t>(first)));
+    });
+}
+
+Handled rehearse_recipe(Call& c, const RecipeDocuments& recipes) {
+    auto found = recipes.find(c.names[0]);
+    if (const auto* refusal = std::get_if<ServiceRefusal>(&found)) return problem_of(*refusal);
+    std::vector<Fault> faults;
+    auto order = read_rehearsal_order(c.body.get_object(), faults);
+    if (!faults.empty()) return invalid(std::move(faults));
+    auto& kept = std::get<KeptRecipe>(found);
+    c.context.recipe_rehearsals->start({c.names[0], kept.document, kept.tag()}, std::move(order), c.origin(),
+                                       [respond = c.respond, name = c.names[0]](const Refusable<json::object>& begun) {
+                                           respond(given(begun, [&](const json::object& state) {
+                                               Response r = json_response(state, 202);
+                                               r.headers.set("Location", fmt::format("/api/v1/recipes/{}/rehearsal", percent_encode(name)));
+                                               return r;
+                                           }));
+                                       });
+    return {gateway_limit, problem(504, "no_answer", "the rehearsal has not been checked yet: GET shows when it has begun")};
+}
+
+Handled cancel_recipe_rehearsal(Call& c, const RecipeDocuments& recipes) {
+    return given(recipes.find(c.names[0]), [&](const KeptRecipe& kept) {
+        return given(c.context.recipe_rehearsals->cancel(c.names[0], kept.tag(), c.origin()),
+                     [](const json::object& state) { return json_response(state, 202); });
+    });
+}
+
 }  // namespace axisgate::http

@@ -175,6 +175,9 @@ constexpr std::array routes{
     Route{"/api/v1/recipes/{recipe}/runs/{run}/cancel", Method::post, take<cancel_recipe_run>}
         .needs(Role::operating)
         .leaves("recipe", "the end of recipe {} run {} was asked for"),
+    Route{"/api/v1/recipes/{recipe}/rehearsal", Method::get, take<get_recipe_rehearsal>}.asks("first"),
+    Route{"/api/v1/recipes/{recipe}/rehearsal", Method::post, take<rehearse_recipe>, Takes::json}.needs(Role::operating),
+    Route{"/api/v1/recipes/{recipe}/rehearsal", Method::remove, take<cancel_recipe_rehearsal>}.needs(Role::operating),
     Route{"/api/v1/session", Method::get, take<get_session>}.needs(Role::none),
     Route{"/api/v1/session", Method::post, take<sign_in>, Takes::json}.needs(Role::none),
     Route{"/api/v1/session", Method::remove, take<sign_out>, Takes::nothing, Gives::nothing}.needs(Role::none),

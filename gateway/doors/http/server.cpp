@@ -51,8 +51,8 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
                                  own_counters.refusals_counted_only = own_router.audit().counted_only();
                                  return own_counters.text();
                              },
-                             all.site_changes, all.recipes, all.jobs, all.access, all.alarms, all.rehearsals, std::make_shared<AxisTexts>(),
-                             all.stages, std::make_shared<ClientsSeen>(), all.writes,
+                             all.site_changes, all.recipes, all.jobs, all.access, all.alarms, all.rehearsals, all.recipe_rehearsals,
+                             std::make_shared<AxisTexts>(), all.stages, std::make_shared<ClientsSeen>(), all.writes,
                              [this](std::function<void()> piece) { later->put(std::move(piece)); }}),
           acceptor(c),
           hub_timer(c),

@@ -47,7 +47,7 @@ void leave_lines_of(Site& site, const std::vector<std::string>& axes) {
 }
 
 /// The names of axes that did not come online; the gateway runs until there are none, or the limit has passed.
-std::string wait_for_drives(RehearsalGateway& gateway, const std::vector<std::string>& axes) {
+std::string wait_for_drives(RehearsalGateway& gateway, const std::vector<std::string>& axes, const std::atomic<bool>& ended) {
     const auto site = gateway.site();
     const auto missing = [&] {
         std::string names;
@@ -59,7 +59,8 @@ std::string wait_for_drives(RehearsalGateway& gateway, const std::vector<std::st
         return names;
     };
     std::string names = missing();
-    for (const Instant end = gateway.now() + RecipeRehearsal::start_limit; !names.empty() && gateway.now() < end; names = missing())
+    for (const Instant end = gateway.now() + RecipeRehearsal::start_limit; !names.empty() && gateway.now() < end && !ended;
+         names = missing())
         gateway.step(end);
     return names;
 }
@@ -119,14 +120,26 @@ std::vector<std::string> read_specimens(std::string_view text, std::string& faul
     return out;
 }
 
-RecipeRehearsal::RecipeRehearsal(const Families& families, RecipeRehearsalWish wish, std::vector<SiteFault>& faults)
-    : families_(families), wish_(std::move(wish)) {
-    for (const auto& [family, specimen] : wish_.fixed) {
+void check_fixed(const FixedSpecimens& fixed, const Families& families, std::vector<SiteFault>& faults) {
+    for (const auto& [family, specimen] : fixed) {
         if (!families.find(family).family)
             faults.push_back({"/fixed", fmt::format("there is no family {}", family), "families: " + families.names(), false});
         else if (auto wrong = check_specimen(specimen); !wrong.empty())
             faults.push_back({"/fixed", std::move(wrong), "name one of the family's specimens", false});
     }
+}
+
+Site site_of_specimen(Site site, std::string_view specimen, const FixedSpecimens& fixed) {
+    for (DriveSpec& drive : site.drives) {
+        const auto own = fixed.find(site.family_of(drive));
+        drive.options["specimen"] = own == fixed.end() ? std::string(specimen) : own->second;
+    }
+    return site;
+}
+
+RecipeRehearsal::RecipeRehearsal(const Families& families, RecipeRehearsalWish wish, std::vector<SiteFault>& faults)
+    : families_(families), wish_(std::move(wish)) {
+    check_fixed(wish_.fixed, families, faults);
     wish_.site = simulated_site(std::move(wish_.site), families);
     auto recipe = read_recipe(wish_.document, &wish_.arguments, faults);
     if (!recipe) return;
@@ -134,23 +147,19 @@ RecipeRehearsal::RecipeRehearsal(const Families& families, RecipeRehearsalWish w
     const RehearsalGateway gateway(families_, wish_.site, wish_.memory, wish_.lease);
     check_recipe(recipe_, gateway, faults);
     axes_ = axes_in(recipe_);
+    if (axes_.empty() && faults.empty())
+        faults.push_back(
+            {"/steps", "the recipe uses no axis, so no drive can make a difference to it", "rehearse a recipe with axes", false});
     leave_lines_of(wish_.site, axes_);
 }
 
-Site RecipeRehearsal::site_of(std::string_view specimen) const {
-    Site site = wish_.site;
-    for (DriveSpec& drive : site.drives) {
-        const auto fixed = wish_.fixed.find(site.family_of(drive));
-        drive.options["specimen"] = fixed == wish_.fixed.end() ? std::string(specimen) : fixed->second;
-    }
-    return site;
-}
+const std::atomic<bool> RecipeRehearsal::never_ended{false};
 
-RehearsedSpecimen RecipeRehearsal::play(std::string_view specimen) const {
+RehearsedSpecimen RecipeRehearsal::play(std::string_view specimen, const std::atomic<bool>& ended) const {
     RehearsedSpecimen out;
     out.specimen = specimen;
-    RehearsalGateway gateway(families_, site_of(specimen), wish_.memory, wish_.lease);
-    if (const std::string missing = wait_for_drives(gateway, axes_); !missing.empty()) {
+    RehearsalGateway gateway(families_, site_of_specimen(wish_.site, specimen, wish_.fixed), wish_.memory, wish_.lease);
+    if (const std::string missing = wait_for_drives(gateway, axes_, ended); !missing.empty()) {
         out.text =
             fmt::format("not online within {} s: {}", std::chrono::duration_cast<std::chrono::seconds>(start_limit).count(), missing);
         out.event = gateway.last_warning();
@@ -167,7 +176,7 @@ RehearsedSpecimen RecipeRehearsal::play(std::string_view specimen) const {
         return out;
     }
     service->on_deadline(gateway.now());
-    while (service->running(wish_.name) != 0) {  // ends: a run has a limit of time, and each step advances it
+    while (service->running(wish_.name) != 0 && !ended) {  // ends: a run has a limit of time, and each step advances it
         gateway.step(service->deadline());
         if (service->deadline() <= gateway.now()) service->on_deadline(gateway.now());
     }

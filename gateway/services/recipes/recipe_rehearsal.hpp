@@ -3,6 +3,7 @@
 // millisecond to seconds of processor time, so they must not run on the hot or the service thread; several may run at once.
 #pragma once
 
+#include <atomic>
 #include <boost/json/object.hpp>
 #include <functional>
 #include <map>
@@ -19,13 +20,19 @@ namespace axisgate {
 /// Limit of specimens of one order.
 inline constexpr std::size_t most_rehearsed_specimens = 10'000;
 
+/// Specimens of families that stay the same in all runs: {"uim342": "slow"}.
+using FixedSpecimens = std::map<std::string, std::string, std::less<>>;
+/// Families and specimens that do not exist are faults at "/fixed".
+void check_fixed(const FixedSpecimens& fixed, const Families& families, std::vector<SiteFault>& faults);
+/// The site with every drive as this specimen, or as that of its family.
+[[nodiscard]] Site site_of_specimen(Site site, std::string_view specimen, const FixedSpecimens& fixed);
+
 struct RecipeRehearsalWish {
     std::string name;  ///< of the recipe
     boost::json::object document{}, arguments{};
     Site site{};
     SiteMemory memory{};  ///< of the site's twins; empty: drives as delivered
-    /// Specimens of families that stay the same in all runs: {"uim342": "slow"}.
-    std::map<std::string, std::string, std::less<>> fixed{};
+    FixedSpecimens fixed{};
     Duration lease = std::chrono::seconds(30);
     Origin by{};  ///< the client as which the recipe commands
 };
@@ -53,11 +60,12 @@ public:
     /// Checks the recipe against the site with all drives simulated. Faults have pointers into the recipe's document, or "/arguments",
     /// "/fixed". play() may be called if there are none.
     RecipeRehearsal(const Families& families, RecipeRehearsalWish wish, std::vector<SiteFault>& faults);
-    /// `specimen` is one of core/specimen.hpp.
-    [[nodiscard]] RehearsedSpecimen play(std::string_view specimen) const;
+    /// `specimen` is one of core/specimen.hpp. When another thread sets `ended`, the run is given up soon and counts as failed.
+    [[nodiscard]] RehearsedSpecimen play(std::string_view specimen, const std::atomic<bool>& ended = never_ended) const;
+    [[nodiscard]] const RecipeRehearsalWish& wish() const noexcept { return wish_; }
 
 private:
-    [[nodiscard]] Site site_of(std::string_view specimen) const;
+    static const std::atomic<bool> never_ended;
 
     const Families& families_;
     RecipeRehearsalWish wish_;

@@ -1,15 +1,19 @@
-// A gateway in virtual time whose drives are all simulated, with the ports that the recipe service needs. It has no connection to a line,
-// to a store or to the running gateway. Bounds: the events of one rehearsal are not kept, only the newest warning of a drive.
+// A gateway in virtual time whose drives are all simulated, with the ports that the recipe service needs, and a place for doors of a
+// program outside. It has no connection to a line, to a store or to the running gateway. Bounds: the events of one rehearsal are not kept,
+// only the newest warning of a drive.
 #pragma once
 
+#include <algorithm>
 #include <boost/json/object.hpp>
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "gateway/engine/door.hpp"
 #include "gateway/engine/engine.hpp"
 #include "gateway/services/ports/axes.hpp"
 #include "gateway/services/ports/clock.hpp"
@@ -35,10 +39,24 @@ public:
     [[nodiscard]] Instant now() const noexcept { return now_; }
     /// Advances to the next event of the gateway, `due` at the latest, and delivers the results of commands.
     void step(Instant due);
+    /// The next event of the gateway.
+    [[nodiscard]] Instant wake_at() const { return engine_.wake_at(); }
     [[nodiscard]] bool online(AxisId axis) const;
+    [[nodiscard]] const Image& image() const noexcept { return image_; }
+    [[nodiscard]] const Catalogue* catalogue(AxisId axis) const { return engine_.catalogue(axis); }
     /// The newest warning or error of an axis, a drive or a line, with its name; empty: none.
     [[nodiscard]] const std::string& last_warning() const noexcept { return last_warning_; }
     void forget_warning() { last_warning_.clear(); }
+
+    /// Doors beside the recipe service, to which results with their numbers (1 for the first one) and all samples are given. They are
+    /// detached before their end.
+    [[nodiscard]] DoorNumber attach(HotDoor& door);
+    void detach(HotDoor& door) { std::ranges::replace(doors_, &door, nullptr); }
+    /// All doors take over the site.
+    void publish_site();
+    /// A command of a door; its result comes in the next step.
+    void give(Command command) { given_.push_back(std::move(command)); }
+    [[nodiscard]] std::optional<Refusal> stream(const SetPoint& set_point) { return engine_.on_set_point(set_point, now_); }
 
     // --- AxisPort
     [[nodiscard]] AxisPicture picture(AxisId axis) const override;
@@ -71,9 +89,10 @@ public:
     std::unique_ptr<Line> make_line(const LineSpec& spec, const LineSetup& setup) override;
     void on_result(const Result& result) override { results_.push_back(result); }
     void on_event(Event event, Instant at) override;
-    void on_sample(const Sample&) override {}
+    void on_sample(const Sample& sample) override;
     void on_store(StoreOrder order) override { stored_.push_back(order.ticket); }
     void on_twin_memory(const std::string&, NonVolatile) override {}
+    [[nodiscard]] std::optional<Instant> last_received(const AuthorityClient& who) const override;
 
 private:
     void deliver();
@@ -86,6 +105,8 @@ private:
     std::map<Ticket, std::function<void(const Result&)>> waiting_;
     std::vector<Result> results_;
     std::vector<Ticket> stored_;
+    std::vector<Command> given_;
+    std::vector<HotDoor*> doors_;  // by number - 1; nullptr: detached
     std::string last_warning_;
 };
 

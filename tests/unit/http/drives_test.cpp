@@ -181,6 +181,7 @@ TEST_F(HttpTest, ATraceIsReadInPiecesThatOthersGetBetween) {
                                    .recipes = recipes,
                                    .alarms = alarms,
                                    .rehearsals = rehearsals,
+                                   .recipe_rehearsals = recipe_rehearsals,
                                    .later = [&](std::function<void()> piece) { pieces.push_back(std::move(piece)); }});
     auto& trace = gateway.traces[gateway.line("can0")];
     for (std::uint64_t i = 1; i <= 200; ++i)

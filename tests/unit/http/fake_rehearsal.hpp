@@ -1,4 +1,5 @@
-// The rehearsal port for tests: the test answers the requested cells with give().
+// The rehearsal port for tests: the test answers the requested cells and specimens with give_all() and give_specimens(). A recipe is good
+// unless the test has put faults into recipe_faults.
 #pragma once
 
 #include <deque>
@@ -11,6 +12,7 @@
 #include "gateway/services/ports/fleet.hpp"
 #include "gateway/services/ports/recorder.hpp"
 #include "gateway/services/ports/rehearsal.hpp"
+#include "gateway/services/recipes/recipe_rehearsal.hpp"
 
 namespace axisgate::http::test {
 
@@ -34,6 +36,50 @@ public:
             then(std::move(cell));
         }
     }
+    void prepare_recipe(RecipeRehearsalWish wish, Prepared then) override {
+        recipes_wanted.push_back(std::move(wish));
+        std::vector<SiteFault> none;
+        auto made = std::make_shared<const RecipeRehearsal>(no_families, RecipeRehearsalWish{}, none);  // only handed back, never played
+        to_prepare.emplace_back([then = std::move(then), made = recipe_faults.empty() ? made : nullptr,
+                                 faults = std::exchange(recipe_faults, {})] { then(made, faults); });
+        if (prepare_at_once) give_prepared();
+    }
+    void rehearse_recipe(std::shared_ptr<const RecipeRehearsal>, std::string specimen, std::shared_ptr<const std::atomic<bool>> ended,
+                         std::function<void(RehearsedSpecimen)> then) override {
+        RehearsedSpecimen row;
+        row.specimen = std::move(specimen);
+        specimens_wanted.push_back({std::move(row), std::move(ended), std::move(then)});
+    }
+    void give_prepared() {
+        while (!to_prepare.empty()) {
+            auto job = std::move(to_prepare.front());
+            to_prepare.pop_front();
+            job();
+        }
+    }
+    /// Answers up to `most` specimens, and those requested because of that. Returns the number.
+    std::size_t give_specimens(std::size_t most, const std::function<void(RehearsedSpecimen&)>& fill) {
+        std::size_t n = 0;
+        for (; n < most && !specimens_wanted.empty(); ++n) {
+            auto wanted = std::move(specimens_wanted.front());
+            specimens_wanted.pop_front();
+            fill(wanted.row);
+            wanted.then(std::move(wanted.row));
+        }
+        return n;
+    }
+    struct WantedSpecimen {
+        RehearsedSpecimen row;
+        std::shared_ptr<const std::atomic<bool>> ended;
+        std::function<void(RehearsedSpecimen)> then;
+    };
+    std::deque<WantedSpecimen> specimens_wanted;
+    std::vector<RecipeRehearsalWish> recipes_wanted;  ///< all requests so far
+    std::deque<std::function<void()>> to_prepare;
+    bool prepare_at_once = true;
+    std::vector<SiteFault> recipe_faults;  ///< of the next recipe
+    Families no_families;
+
     std::deque<std::pair<RehearsalCell, std::function<void(RehearsalCell)>>> cells_wanted;
     std::deque<RehearsalWish> wishes;  ///< all requests so far
 };

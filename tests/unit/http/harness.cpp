@@ -27,6 +27,7 @@ Harness::Harness()
       recipes(std::make_shared<RecipeService>(gateway, [this] { return clock; })),
       alarms(std::make_shared<AlarmService>(gateway, [this] { return clock; })),
       rehearsals(std::make_shared<Rehearsals>(gateway)),
+      recipe_rehearsals(std::make_shared<RecipeRehearsals>(gateway)),
       router(Context{
           gateway, settings,
           [this](std::string_view path) {
@@ -34,7 +35,7 @@ Harness::Harness()
               return it == files.end() ? std::string_view() : it->second.empty() ? std::string_view("", 0) : std::string_view(it->second);
           },
           [] { return std::string("axisgate_http_own 1\n"); }, std::make_shared<ChangeQueue>(), recipes, std::make_shared<AxisJobs>(),
-          nullptr, alarms, rehearsals}) {}
+          nullptr, alarms, rehearsals, recipe_rehearsals}) {}
 Harness::~Harness() = default;
 
 Router Harness::with_users(std::shared_ptr<AccessPort> access) {
@@ -45,7 +46,8 @@ Router Harness::with_users(std::shared_ptr<AccessPort> access) {
                           .recipes = recipes,
                           .access = std::move(access),
                           .alarms = alarms,
-                          .rehearsals = rehearsals}};
+                          .rehearsals = rehearsals,
+                          .recipe_rehearsals = recipe_rehearsals}};
 }
 
 HttpTest::HttpTest() = default;

@@ -45,6 +45,7 @@ struct Harness {
     std::shared_ptr<RecipeService> recipes;
     std::shared_ptr<AlarmService> alarms;
     std::shared_ptr<Rehearsals> rehearsals;
+    std::shared_ptr<RecipeRehearsals> recipe_rehearsals;
     Router router;
     std::vector<Response> later;       ///< answers that came through Respond
     std::chrono::nanoseconds limit{};  ///< of the last promise

@@ -25,7 +25,7 @@ export function needed(method, parts, body) {
   if (kind === 'tokens' || method === 'GET') return 'viewer';
   if (kind === 'axes' && what === 'commands') return ['halt', 'quick_stop', 'disable'].includes(body?.command) ? 'viewer' : 'operator';
   if (kind === 'axes' && what === 'authority') return body?.take_over ? 'engineer' : 'operator';
-  if (kind === 'alarms' || (kind === 'recipes' && (what === 'run' || what === 'runs'))) return 'operator';
+  if (kind === 'alarms' || (kind === 'recipes' && (what === 'run' || what === 'runs' || what === 'rehearsal'))) return 'operator';
   return 'engineer';
 }
 

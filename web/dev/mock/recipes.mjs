@@ -1,5 +1,6 @@
 // Mock of the recipes: documents, a check of them, runs with their reports. In: requests; time in milliseconds, by the caller. Out: documents of the
 // HTTP door. A stand-in for the page's author: every kind of step has its effect on the mock world or none; the checks are the few that the page shows.
+import { MockRehearsals } from './rehearsal.mjs';
 import { Refusal } from './world.mjs';
 
 /** @typedef {import('../../src/api/types').RecipeReport} RecipeReport */
@@ -32,11 +33,13 @@ export class Recipes {
     this.runs = new Map();
     /** Told of each change of a report. @type {((report: RecipeReport) => void)[]} */
     this.listeners = [];
+    this.rehearsals = new MockRehearsals(world);
   }
 
   /** @param {number} now_ms */
   step(now_ms) {
     this.now_ms = now_ms;
+    this.rehearsals.step();
     for (const run of [...this.runs.values()].flat()) if (run.report.state === 'running') this.goOn(run);
   }
 
@@ -106,6 +109,7 @@ export class Recipes {
       this.world.event('info', 'recipe', { who, door: 'http' }, `recipe ${name} deleted`);
       return { status: 204 };
     }
+    if (what === 'rehearsal') return this.rehearsals.answer(name, tagOf(recipe), ask);
     if (what === 'run') return this.start(name, recipe.document, text ? JSON.parse(text) : {}, who);
     const runs = this.runs.get(name) ?? [];
     if (!n) return { body: runs.map(({ report: { steps: _, ...head } }) => head) };

@@ -9,7 +9,7 @@ import { asProblem, Problem, problemOf } from './problem';
 import type {
   Action,
   About, Alarm, AlarmList, Axis, AxisParameter, Command, CommandAnswer, Drive, FleetGateway, GatewayEvent, HandItem, Line, ModbusDoor, NativeReply,
-  RecipeCheck, RecipeEntry, RecipeReport, RecipeReportHead, ScanReport, Specimen, Value,
+  RecipeCheck, RecipeEntry, RecipeRehearsal, RecipeReport, RecipeReportHead, ScanReport, Specimen, Value,
 } from './types';
 
 const ordinaryAtOnce = 4;
@@ -132,6 +132,10 @@ export class Client {
   recipeRun = (name: string, n: number) => this.call<RecipeReport>(`/recipes/${part(name)}/runs/${n}`);
   /** Stops what the run has set in motion: it waits behind nothing. */
   cancelRun = (name: string, n: number) => this.call<RecipeReport>(`/recipes/${part(name)}/runs/${n}/cancel`, { method: 'POST', urgent: true });
+  /** The newest rehearsal against specimens, with the rows from `first` on. */
+  recipeRehearsal = (name: string, first: number) => this.call<RecipeRehearsal>(`/recipes/${part(name)}/rehearsal?first=${first}`);
+  rehearseRecipe = (name: string, order: object) => this.call<RecipeRehearsal>(`/recipes/${part(name)}/rehearsal`, { method: 'POST', body: order });
+  cancelRehearsal = (name: string) => this.call<RecipeRehearsal>(`/recipes/${part(name)}/rehearsal`, { method: 'DELETE' });
   scan = (line: string) => this.call<ScanReport>(`/lines/${part(line)}/scan`);
   startScan = (line: string, range: { from?: string; to?: string }) => this.call<ScanReport>(`/lines/${part(line)}/scan`, { method: 'POST', body: range });
   cancelScan = (line: string) => this.call<ScanReport>(`/lines/${part(line)}/scan`, { method: 'DELETE' });

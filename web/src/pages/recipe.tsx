@@ -6,6 +6,7 @@ import { Empty } from '../components/lines';
 import { useLoaded } from '../components/loaded';
 import { RecipeBar, RecipeJson } from '../components/recipe-bar';
 import { RecipeParameters } from '../components/recipe-parameters';
+import { RecipeRehearsalPart } from '../components/recipe-rehearsal';
 import { RecordPart } from '../components/recipe-record';
 import { RunReports } from '../components/recipe-report';
 import { RunHead, useRuns } from '../components/recipe-run';
@@ -45,6 +46,7 @@ export function RecipePage({ name }: { name: string }) {
             <RecipeJson draft={draft} />
           </div>
           <RunReports run={run} />
+          <RecipeRehearsalPart name={name} document={d} run={run} saved={!draft.unsaved.value && draft.stored.value !== ''} />
         </>
       )}
     </main>

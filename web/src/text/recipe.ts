@@ -126,6 +126,17 @@ export function axisMeant(named: string, parameters: RecipeDocument['parameters'
   return typeof value === 'string' && value !== '' ? value : null;
 }
 
+/** Every text in a document that may be a name. */
+export function namesIn(document: unknown): Set<string> {
+  const found = new Set<string>();
+  const walk = (value: unknown): void => {
+    if (typeof value === 'string') found.add(value);
+    else if (value !== null && typeof value === 'object') Object.values(value).forEach(walk);
+  };
+  walk(document);
+  return found;
+}
+
 /** What the forms call a step of this word. */
 export const stepLabel = (word: string): string => stepKinds.find((k) => k.word === word)?.label ?? plainWord(word);
 

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <boost/json/parse.hpp>
 #include <boost/json/serialize.hpp>
+#include <csignal>
 #include <filesystem>
 #include <thread>
 
@@ -78,6 +79,7 @@ private:
         for (const auto& f : faults)
             complain(fmt::format("{}; {}", f.text, f.remedy));
         if (!faults.empty()) return exit_usage;
+        (void)std::signal(SIGPIPE, SIG_IGN);  // a program may end while the door answers it
         ProgramRehearsalWish all;
         all.command = options_.program;
         all.time_scale = options_.time_scale;

@@ -28,11 +28,13 @@ public:
     explicit VirtualDoorPort(RehearsalGateway& gateway) : gateway_(gateway) {}
     [[nodiscard]] Instant now() const override { return gateway_.now(); }
     [[nodiscard]] const Image& image() const override { return gateway_.image(); }
-    [[nodiscard]] const Catalogue* catalogue(AxisId axis) const override { return gateway_.catalogue(axis); }
+    [[nodiscard]] const Catalogue* catalogue(AxisId axis) const override { return gateway_.engine().catalogue(axis); }
     void submit(Command command) override { gateway_.give(std::move(command)); }
-    std::optional<Refusal> set_point(const SetPoint& set_point) override { return gateway_.stream(set_point); }
-    [[nodiscard]] DoorNumber attach(HotDoor& door) override { return gateway_.attach(door); }
-    void detach(HotDoor& door) override { gateway_.detach(door); }
+    std::optional<Refusal> set_point(const SetPoint& set_point) override {
+        return gateway_.engine().on_set_point(set_point, gateway_.now());
+    }
+    [[nodiscard]] DoorNumber attach(HotDoor& door) override { return gateway_.doors().attach(door); }
+    void detach(HotDoor& door) override { gateway_.doors().detach(door); }
     void client_lost(const AuthorityClient& who, LossCause cause) override { gateway_.client_lost(who, cause); }
 
 private:
@@ -46,7 +48,7 @@ public:
     /// Empty, or the fault of the computer or the program.
     [[nodiscard]] std::string play(const std::string& specimen) {
         static const std::array<std::string, 1> any_port{"127.0.0.1:0"};
-        gateway_.publish_site();
+        gateway_.doors().on_site(*gateway_.site());
         if (auto fault = door_.open(any_port); !fault.empty()) return fault;
         std::string fault;
         ChildProcess program(wish_.command,
@@ -89,7 +91,7 @@ private:
         }
         if (io_.poll() > 0) return;
         const auto until = std::chrono::duration<double, std::nano>(
-            gateway_.wake_at() == never ? 1e9 : static_cast<double>((gateway_.wake_at() - gateway_.now()).count()));
+            gateway_.engine().wake_at() == never ? 1e9 : static_cast<double>((gateway_.engine().wake_at() - gateway_.now()).count()));
         const auto pause = Duration(static_cast<std::int64_t>(until.count() / wish_.time_scale));
         (void)io_.run_one_for(std::clamp(pause, Duration::zero(), longest_sleep));
     }

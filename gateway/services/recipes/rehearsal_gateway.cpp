@@ -59,38 +59,11 @@ void RehearsalGateway::deliver() {
         for (const Ticket order : std::exchange(stored_, {}))
             engine_.on_stored(order, "", now_);
         for (const Result& result : std::exchange(results_, {})) {
-            if (const DoorNumber number = door_of(result.ticket); number > 0 && number <= doors_.size()) {
-                if (HotDoor* door = doors_[number - 1u]) door->on_result(result);
-                continue;
-            }
+            if (doors_.on_result(result)) continue;
             auto found = waiting_.extract(result.ticket);
             if (!found.empty()) found.mapped()(result);
         }
     }
-}
-
-DoorNumber RehearsalGateway::attach(HotDoor& door) {
-    doors_.push_back(&door);
-    return static_cast<DoorNumber>(doors_.size());
-}
-
-void RehearsalGateway::publish_site() {
-    for (HotDoor* door : doors_)
-        if (door) door->on_site(*site());
-}
-
-void RehearsalGateway::on_sample(const Sample& sample) {
-    for (HotDoor* door : doors_)
-        if (door) door->on_sample(sample);
-}
-
-std::optional<Instant> RehearsalGateway::last_received(const AuthorityClient& who) const {
-    std::optional<Instant> newest;
-    for (const HotDoor* door : doors_) {
-        const auto at = door ? door->last_received(who) : std::nullopt;
-        if (at && (!newest || *at > *newest)) newest = at;
-    }
-    return newest;
 }
 
 bool RehearsalGateway::online(AxisId axis) const {

@@ -3,7 +3,6 @@
 // only the newest warning of a drive.
 #pragma once
 
-#include <algorithm>
 #include <boost/json/object.hpp>
 #include <functional>
 #include <map>
@@ -13,13 +12,13 @@
 #include <utility>
 #include <vector>
 
-#include "gateway/engine/door.hpp"
 #include "gateway/engine/engine.hpp"
 #include "gateway/services/ports/axes.hpp"
 #include "gateway/services/ports/clock.hpp"
 #include "gateway/services/ports/documents.hpp"
 #include "gateway/services/ports/events.hpp"
 #include "gateway/services/ports/site.hpp"
+#include "gateway/services/recipes/rehearsal_doors.hpp"
 
 namespace axisgate {
 
@@ -39,24 +38,17 @@ public:
     [[nodiscard]] Instant now() const noexcept { return now_; }
     /// Advances to the next event of the gateway, `due` at the latest, and delivers the results of commands.
     void step(Instant due);
-    /// The next event of the gateway.
-    [[nodiscard]] Instant wake_at() const { return engine_.wake_at(); }
     [[nodiscard]] bool online(AxisId axis) const;
     [[nodiscard]] const Image& image() const noexcept { return image_; }
-    [[nodiscard]] const Catalogue* catalogue(AxisId axis) const { return engine_.catalogue(axis); }
+    [[nodiscard]] Engine& engine() noexcept { return engine_; }
     /// The newest warning or error of an axis, a drive or a line, with its name; empty: none.
     [[nodiscard]] const std::string& last_warning() const noexcept { return last_warning_; }
     void forget_warning() { last_warning_.clear(); }
 
-    /// Doors beside the recipe service, to which results with their numbers (1 for the first one) and all samples are given. They are
-    /// detached before their end.
-    [[nodiscard]] DoorNumber attach(HotDoor& door);
-    void detach(HotDoor& door) { std::ranges::replace(doors_, &door, nullptr); }
-    /// All doors take over the site.
-    void publish_site();
+    /// Doors beside the recipe service, to which results with their numbers and all samples are given.
+    [[nodiscard]] RehearsalDoors& doors() noexcept { return doors_; }
     /// A command of a door; its result comes in the next step.
     void give(Command command) { given_.push_back(std::move(command)); }
-    [[nodiscard]] std::optional<Refusal> stream(const SetPoint& set_point) { return engine_.on_set_point(set_point, now_); }
 
     // --- AxisPort
     [[nodiscard]] AxisPicture picture(AxisId axis) const override;
@@ -89,10 +81,10 @@ public:
     std::unique_ptr<Line> make_line(const LineSpec& spec, const LineSetup& setup) override;
     void on_result(const Result& result) override { results_.push_back(result); }
     void on_event(Event event, Instant at) override;
-    void on_sample(const Sample& sample) override;
+    void on_sample(const Sample& sample) override { doors_.on_sample(sample); }
     void on_store(StoreOrder order) override { stored_.push_back(order.ticket); }
     void on_twin_memory(const std::string&, NonVolatile) override {}
-    [[nodiscard]] std::optional<Instant> last_received(const AuthorityClient& who) const override;
+    [[nodiscard]] std::optional<Instant> last_received(const AuthorityClient& who) const override { return doors_.last_received(who); }
 
 private:
     void deliver();
@@ -106,7 +98,7 @@ private:
     std::vector<Result> results_;
     std::vector<Ticket> stored_;
     std::vector<Command> given_;
-    std::vector<HotDoor*> doors_;  // by number - 1; nullptr: detached
+    RehearsalDoors doors_;
     std::string last_warning_;
 };
 

@@ -173,11 +173,21 @@ struct CommandLine {
     }
 
     void add_compare() {
-        compare = app.add_subcommand("compare", "play a recorded drive to its twin, and tell where the two differ; nothing is sent");
+        compare = app.add_subcommand("compare",
+                                     "tell where a drive and its twin differ: a recorded drive, or one on a line, which is only asked");
         compare->add_option("family", compare_options.family, "family, see `axisgate families`")->required()->type_name("FAMILY");
-        compare->add_option("recording", compare_options.file, "recorded line of a real drive; -: standard input")
-            ->required()
-            ->type_name("RECORDING");
+        compare->add_option("recording", compare_options.file, "recorded line of a real drive; -: standard input")->type_name("RECORDING");
+        auto* line = compare->add_option("--line", compare_options.line_uri, "compare a drive on this line instead of a recording")
+                         ->type_name("URI");
+        compare->add_option("--channel", compare_options.channel, "with --line: the axis within the drive (default 1)")
+            ->check(CLI::Range(1, 64))
+            ->needs(line)
+            ->type_name("N");
+        compare
+            ->add_option("--adopt", compare_options.adopt_file,
+                         "with --line: write the values of the drive as the memory of its twin, for --state and `twin --state`")
+            ->needs(line)
+            ->type_name("FILE");
         compare
             ->add_option("--format", compare_options.format,
                          "candump, hex (lines as `(SECONDS) > BYTES`, > to the drive, < from it), trace, pcapng or axr; without it the "
@@ -185,7 +195,7 @@ struct CommandLine {
             ->check(CLI::IsMember({"candump", "hex", "trace", "pcapng", "axr"}));
         compare->add_option("--interface", compare_options.interface, "the line to compare, if the recording has several")
             ->type_name("NAME");
-        compare->add_option("--address", compare_options.addresses, "address of a recorded drive; may be repeated")
+        compare->add_option("--address", compare_options.addresses, "address of the drive; may be repeated for a recording")
             ->type_name("A")
             ->allow_extra_args(false);
         compare->add_option("--option", compare_options.options, "an option of the twin, such as crc=13; may be repeated")
@@ -273,7 +283,7 @@ struct CommandLine {
         if (*specimen) return command_specimen(specimen_family, specimen_name, specimen_json);
         if (*decode) return command_decode(decode_family, decode_format, decode_file);
         if (*replay) return command_replay(replay_file);
-        if (*compare) return command_compare(compare_options);
+        if (*compare) return compare_options.line_uri.empty() ? command_compare(compare_options) : command_compare_line(compare_options);
         if (*twin) return command_twin(twin_options);
         if (*check) {
             bool good = true;

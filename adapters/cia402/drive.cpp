@@ -4,6 +4,7 @@
 
 #include <charconv>
 
+#include "gateway/core/only_reads.hpp"
 #include "gateway/drive/option_reader.hpp"
 
 namespace axisgate::cia402_drive {
@@ -50,6 +51,7 @@ Drive::Drive(Line& line, const DriveSetup& setup, std::size_t slot)
       slot_(slot),
       heartbeat_(node.number) {
     drive::OptionReader options(node.setup.options);
+    node.only_reads = only_reads(node.setup.options);
     node.keep_quick_stop = options.flag("quick_stop_stays", true, "yes", "no");
     node.keep_limits = options.flag("drive_limits", true, "on", "off");
     heartbeat_period_ = options.milliseconds("heartbeat_ms", 0, 60'000, heartbeat_period_);
@@ -134,7 +136,7 @@ void Drive::line_down(std::string_view why, Turn& t) {
 }
 
 void Drive::made_ready(Turn& t) {
-    if (!axes.empty()) heartbeat_.set_time(3 * heartbeat_period_);
+    if (!axes.empty() && !node.only_reads) heartbeat_.set_time(3 * heartbeat_period_);
     for (const auto& a : axes)
         if (a->is_new()) a->made_ready(t.now);
     if (listeners() == 0) check_at_ = t.now + std::chrono::milliseconds(200);

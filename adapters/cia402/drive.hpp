@@ -47,7 +47,7 @@ public:
     [[nodiscard]] int listeners() const noexcept;
     /// The node waits for its PDOs, or for the cycle in which they begin.
     [[nodiscard]] bool beats_wanted() const noexcept {
-        return listeners() > 0 || (node.presence.is(Presence::Phase::starting) && start.at_end());
+        return !node.only_reads && (listeners() > 0 || (node.presence.is(Presence::Phase::starting) && start.at_end()));
     }
     [[nodiscard]] bool quick() const noexcept;
     /// An axis follows set-points, or rests in a cyclic mode: the SYNC keeps its period, because the drive may monitor it.

@@ -33,7 +33,7 @@ void NmtWatch::stopped(Turn& t) {
         drive_.notice(Severity::warning, "nmt_stopped", 0, fmt::format("{}: {}", node.setup.name, text), t);
         node.presence.report(text, t.out);
     }
-    if (!turns) return;
+    if (!turns || node.only_reads) return;
     if (t.now - since_ > in) starts_ = 0, since_ = t.now;
     if (++starts_ <= most_starts) start(Priority::command, no_ticket, t);
 }
@@ -50,7 +50,7 @@ void NmtWatch::back(Turn& t) {
 }
 
 void NmtWatch::silent(Turn& t) {
-    if (turning()) start(Priority::command, no_ticket, t);
+    if (turning() && !drive_.node.only_reads) start(Priority::command, no_ticket, t);
 }
 
 void NmtWatch::start(Priority priority, Ticket order, Turn& t) {

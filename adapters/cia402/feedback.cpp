@@ -47,7 +47,7 @@ void Drive::on_heartbeat(const Frame& f, Turn& t) {
     }
     if (heartbeat_.state() == canopen::NmtState::stopped && !axes.empty()) {
         if (presence.is(Presence::Phase::ready)) return nmt.stopped(t);
-        nmt.wake(t);
+        if (!node.only_reads) nmt.wake(t);
     } else if (node.stopped) {
         nmt.back(t);
     }

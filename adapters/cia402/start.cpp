@@ -65,6 +65,11 @@ void Start::add_axes() {
 
 void Start::set_up() {
     if (drive_.axes.empty()) return;
+    if (drive_.node.only_reads) {
+        for (const auto& a : drive_.axes)
+            a->known.polled = true;
+        return;
+    }
     steps_.push_back({{Step::Kind::write, object::heartbeat, bytes_of(milliseconds_of(drive_.heartbeat_period()), 2), 0, 0, true}});
     std::vector<PdoSetUp::Wanted> wanted;
     for (const auto& a : drive_.axes) {

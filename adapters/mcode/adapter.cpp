@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "gateway/core/only_reads.hpp"
 #include "gateway/drive/option_reader.hpp"
 #include "gateway/drive/text_lines.hpp"
 
@@ -24,6 +25,7 @@ constexpr drive::Timing default_timing{.reply_timeout = 120ms};
 void LineAdapter::take(const LineSetup& setup, Turn& t) {
     bus_.take(setup, default_timing);
     drive::OptionReader options(setup.options);
+    bus_.only_reads = only_reads(setup.options);
     bus_.ethernet = options.flag("ethernet", false);
     bus_.em = static_cast<int>(options.whole("em", 0, 3, 1));
     const auto ck = static_cast<int>(options.whole("ck", 0, 2, 1));

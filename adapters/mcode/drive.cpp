@@ -234,7 +234,7 @@ void Drive::confirm_ended(Verdict v, const ReplyReader& r, Turn& t) {
 void Drive::poll_ended(Verdict v, const ReplyReader& r, Turn& t) {
     if (v != Verdict::refused) poll_refusals_ = 0;
     if (v == Verdict::answered && feedback.learn_poll(r.data(), t)) {
-        if (feedback.flags().ef) errors.ask(false);
+        if (feedback.flags().ef && !bus.only_reads) errors.ask(false);
     } else if (v == Verdict::refused) {
         // One may be noise. Two: its link has changed. With LL the next without it tells.
         poll.soon(t.now);

@@ -12,7 +12,9 @@
 
 namespace axisgate::mcode {
 
-bool ProgramMode::leaving() const noexcept { return !immediate() && (!drive_.programs.downloads() || suspected_); }
+bool ProgramMode::leaving() const noexcept {
+    return !drive_.bus.only_reads && !immediate() && (!drive_.programs.downloads() || suspected_);
+}
 
 bool ProgramMode::proven(int questions) const noexcept { return drive_.words.sums || evidence_ >= questions; }
 

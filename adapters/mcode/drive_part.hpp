@@ -20,6 +20,7 @@ struct Bus : drive::Bus {
     using drive::Bus::Bus;
     int em = 1;                      ///< echo mode wanted
     int ck = 1;                      ///< checksum mode wanted
+    bool only_reads = false;         ///< the link is used as it is, and ER, which reading clears, is left
     bool ethernet = false;           ///< MCode/TCP: no CK, no names [L1173-1191]
     bool reset_hits_others = false;  ///< another drive of this line has CE = 1: a CTRL+C for one restarts that too
     int rate_code = 0;               ///< BD of the line's rate; 0: not known, or none of BD's [L1585]

@@ -65,7 +65,21 @@ void Parameters::plan(const Command& c, Turn& t) {
     if (!p->readable()) {
         return refuse(Reason::not_supported, fmt::format("{}: the drive tells nothing back about it: it can only be written", p->id), t);
     }
+    if (!fits(*p)) {
+        return refuse(Reason::not_supported,
+                      fmt::format("{}: {} does not have it: asking for it would be an error in the drive", p->id, name()), t);
+    }
     job().ask_rows(word_of_parameter(*p));
+}
+
+/// A question for a word that the product or the line does not have is error 37: it sets EF, and runs the handler of errors (OE).
+bool Parameters::fits(const Parameter& p) const {
+    const auto* ethernet = p.wire.if_contains("ethernet");
+    if (drive_.bus.ethernet && ethernet && ethernet->is_bool() && !ethernet->get_bool()) return false;
+    const std::string_view product = drive_.start.product();
+    const auto* products = p.wire.if_contains("products");
+    if (product.empty() || !products || !products->is_array()) return true;
+    return std::ranges::any_of(products->get_array(), [&](const auto& x) { return x.is_string() && x.get_string() == product; });
 }
 
 void Parameters::write(const Parameter& p, const Value& value, Turn& t) {

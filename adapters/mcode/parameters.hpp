@@ -29,6 +29,7 @@ public:
 private:
     [[nodiscard]] const Parameter* in_hand() const;
     void write(const Parameter& p, const Value& value, Turn& t);
+    [[nodiscard]] bool fits(const Parameter& p) const;
     void write_variables(const std::string& rows, Turn& t);
     [[nodiscard]] bool has_type(const std::string& data) const;
     void learn(const Parameter& p, const Value& v, bool written);

@@ -97,7 +97,7 @@ Request Start::next() {
     }
     if (!link_line_.empty()) return Request::say(What::link, link_line_);
     Request r;
-    if (drive_.mode.probes_by_line()) {
+    if (drive_.mode.probes_by_line() && !drive_.bus.only_reads) {
         r = Request::say(What::probe, "PG");
         drive_.mode.sending(r.text);
     } else {
@@ -144,6 +144,7 @@ void Start::ended(Verdict v, const ReplyReader& r, bool mode_line, Turn& t) {
 std::string Start::wanted_word() const {
     const LinkWords& w = drive_.words;
     const Bus& bus = drive_.bus;
+    if (bus.only_reads) return {};
     if (w.em != bus.em) return fmt::format("EM={}", bus.em);
     if (!bus.ethernet && w.ck != bus.ck) return fmt::format("CK={}", bus.ck);
     // With ES = 1 an ESC meant for one drive would stop them all [L2742-2744].
@@ -171,7 +172,7 @@ void Start::probe_answered(const std::string& data, Turn& t) {
         if (drive_.presence.is(Phase::absent)) drive_.presence.begin(t.now);
         return;
     }
-    if (w.em != bus.em || (!bus.ethernet && w.ck != bus.ck)) {
+    if (!bus.only_reads && (w.em != bus.em || (!bus.ethernet && w.ck != bus.ck))) {
         note(Severity::warning, "link", 0, fmt::format("{} keeps EM={} and CK={}; it is used as it is", name(), w.em, w.ck), t);
     }
     drive_.presence.found();
@@ -181,6 +182,7 @@ void Start::probe_answered(const std::string& data, Turn& t) {
 
 /// Without an encoder ST and EE are errors; an open loop is asked for them only when no program can be disturbed by that.
 bool Start::needless(std::string_view item) const noexcept {
+    if (drive_.bus.only_reads && (item == "AS" || item == "ST")) return true;
     return (item == "AS" && knows_model_) || (item == "ST" && (feedback().has.encoder || running_)) ||
            (item == "BD" && drive_.bus.rate_code == 0);
 }
@@ -226,6 +228,11 @@ void Start::read(Verdict v, std::string data, Turn& t) {
         ++item_;
     while (item_ < first_questions.size() && needless(first_questions[item_]));
     if (item_ == first_questions.size()) came(t);
+}
+
+std::string_view Start::product() const noexcept {
+    if (!knows_model_) return {};
+    return identity_.starts_with("LMDC") ? "lmdc" : identity_.starts_with("LMDO") ? "lmdo" : "lmm";
 }
 
 void Start::came(Turn& t) {

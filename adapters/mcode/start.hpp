@@ -26,6 +26,8 @@ public:
 
     [[nodiscard]] Request next();
     /// It is answered by an acknowledgement alone.
+    /// Of the page's "products": "lmdo", "lmdc", "lmm"; empty: its part number does not say it.
+    [[nodiscard]] std::string_view product() const noexcept;
     [[nodiscard]] bool says_line() const noexcept { return !link_line_.empty(); }
     void ended(Verdict v, const ReplyReader& r, bool mode_line, Turn& t);
     /// Every exchange: what came, whatever it was for.

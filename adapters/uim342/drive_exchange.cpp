@@ -9,6 +9,7 @@
 #include <array>
 
 #include "adapters/uim342/drive.hpp"
+#include "gateway/core/only_reads.hpp"
 
 namespace axisgate::uim342 {
 
@@ -26,7 +27,7 @@ bool Exchanges::makes_way(const Message& m, std::uint8_t mf, Priority priority, 
     const Instruction* i = instruction(m.cw);
     if (late(m)) {
         barrier(t);
-    } else if (mf_unknown && mf == 0 && i && i->takes_mf) {
+    } else if (mf_unknown && mf == 0 && i && i->takes_mf && !only_reads(drive_.setup().options)) {
         send({drive_.set(cw::MF, 0), Purpose::clear_mf}, drive_.bus.timing.retries, priority, t);
     } else {
         return false;

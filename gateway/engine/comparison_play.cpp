@@ -12,7 +12,9 @@ using namespace std::chrono_literals;
 /// The twins are switched on this long before the recording, and the recording is continued for `tail`, so that late answers are seen.
 constexpr Duration before = 5s, tail = 5s;
 /// Limit of deadlines of one twin between two frames: a twin that stays due must not stop the time.
-constexpr int most_deadlines = 200'000;
+constexpr std::size_t least_deadlines = 200'000, deadlines_per_frame = 50;
+/// Messages of the twin in one play.
+constexpr std::size_t most_emitted = 2 * ComparisonInput::most_frames;
 
 std::uint32_t stream_of(const Frame& f) noexcept {
     return f.kind == Frame::Kind::bytes ? 0 : f.id | (f.extended ? 0x80000000u : 0) | (f.remote ? 0x40000000u : 0);
@@ -27,7 +29,7 @@ struct Emitted {
 class Player {
 public:
     Player(const ComparisonInput& input, const std::string& specimen, const Disturbance& disturbance)
-        : input_(input), disturbance_(disturbance) {
+        : input_(input), disturbance_(disturbance), deadlines_(least_deadlines + deadlines_per_frame * input.frames.size()) {
         for (const auto& address : input.addresses)
             twins_.push_back(make_twin(input, address, specimen));
     }
@@ -74,12 +76,14 @@ private:
     void run_until(Instant now, std::size_t request) {
         for (auto& twin : twins_) {
             Instant at{};
-            for (int i = 0; twin->deadline() <= now; ++i) {
-                at = i < most_deadlines ? std::max(twin->deadline(), at + 1us) : now;
+            while (twin->deadline() <= now) {
+                const bool spent = deadlines_ == 0;
+                at = spent ? now : std::max(twin->deadline(), at + 1us);
                 if (at > now) break;
                 twin->on_deadline(at, out_);
                 take(at, request, false);
-                if (i >= most_deadlines) break;
+                if (spent) break;
+                --deadlines_;
             }
         }
     }
@@ -100,6 +104,7 @@ private:
 
     void take(Instant now, std::size_t cause, bool prompt) {
         for (const auto& tx : out_.frames) {
+            if (emitted_.size() == most_emitted) break;
             emitted_.push_back({tx.frame, cause, prompt});
             emitted_.back().frame.at = time_zero + (std::max(now, tx.frame.at) - first);
         }
@@ -139,6 +144,7 @@ private:
     std::vector<std::unique_ptr<Twin>> twins_;
     Out out_;
     std::vector<Emitted> emitted_;
+    std::size_t deadlines_;  ///< that are left: behind them the twin passes each gap of the recording in one step
     std::uint64_t revision_ = 0;
     Play play_;
 };

@@ -53,6 +53,11 @@ std::string Engine::set_hand(DriveId drive, const std::vector<std::pair<std::str
     return parts_->twins.use_hand(drive, items, origin, now);
 }
 
+std::string Engine::adopt(DriveId drive, NonVolatile memory, const Origin& origin, Instant now) {
+    if (FlightTap* tap = parts_->publisher.tap()) tap->adopt(drive, memory, origin, now);
+    return parts_->twins.adopt(drive, std::move(memory), origin, now);
+}
+
 const Histogram& Engine::write_to_frame() const noexcept { return parts_->routing.write_to_frame(); }
 std::uint64_t Engine::losses(LossCause cause) const noexcept { return parts_->loss.losses(cause); }
 

@@ -133,6 +133,9 @@ public:
     [[nodiscard]] Twin* twin(DriveId drive);
     [[nodiscard]] std::string set_hand(DriveId drive, const std::vector<std::pair<std::string, Value>>& items, const Origin& origin,
                                        Instant now);
+    /// The twin of this drive starts with this memory when it serves the axes next, and the memory is stored. Empty, or the reason why not:
+    /// a twin that serves now keeps its own.
+    [[nodiscard]] std::string adopt(DriveId drive, NonVolatile memory, const Origin& origin, Instant now);
     /// True when every line is up, or its drives are served by twins, or its first attempts have failed for a known reason.
     [[nodiscard]] bool settled() const;
     /// The reasons why the gateway is not ready, one sentence each: lines that are down, drives that are offline.

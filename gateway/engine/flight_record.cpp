@@ -97,6 +97,8 @@ std::string_view name_of(FlightKind kind) noexcept {
             return "line_state";
         case FlightKind::last_received:
             return "heard";
+        case FlightKind::twin_memory:
+            return "twin_memory";
         case FlightKind::look:
             return "look";
         case FlightKind::send_refused:

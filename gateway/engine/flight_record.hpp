@@ -38,6 +38,7 @@ enum class FlightKind : std::uint8_t {
     line_state = 13,     ///< state of a cable; index: line
     last_received = 14,  ///< the answer of a door when it was asked for the last message of a client
     look = 16,           ///< fast polling of axes begins or ends
+    twin_memory = 17,    ///< a twin has adopted values: HandRecord with the whole memory; index: drive
     send_refused = 15,   ///< the line did not accept a frame: its number among the frames given to it; index: line
     twin_frame = 32,     ///< a frame on a twin bus; index: line
     handed = 33,         ///< a frame given to a line with a cable; index: line
@@ -162,6 +163,7 @@ public:
     void look(const LookRecord& look, Instant now);
     void scan_cancel(LineId line, Instant now) { take({FlightKind::scan_cancel, index_of(line), now, {}}); }
     void hand(DriveId drive, const std::vector<std::pair<std::string, Value>>& items, const Origin& origin, Instant now);
+    void adopt(DriveId drive, const NonVolatile& memory, const Origin& origin, Instant now);
     void shut_down(Instant now) { take({FlightKind::shut_down, 0xFFFF, now, {}}); }
     void line_state(LineId line, bool up, const std::string& why, Instant now);
     void last_received(std::optional<Instant> at, Instant now);

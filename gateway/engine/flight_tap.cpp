@@ -41,6 +41,10 @@ void FlightTap::hand(DriveId drive, const std::vector<std::pair<std::string, Val
     pack(scratch_, HandRecord{items, origin});
     give(FlightKind::hand, index_of(drive), now);
 }
+void FlightTap::adopt(DriveId drive, const NonVolatile& memory, const Origin& origin, Instant now) {
+    pack(scratch_, HandRecord{{memory.begin(), memory.end()}, origin});
+    give(FlightKind::twin_memory, index_of(drive), now);
+}
 void FlightTap::line_state(LineId line, bool up, const std::string& why, Instant now) {
     pack(scratch_, LineStateRecord{up, why});
     give(FlightKind::line_state, place_of(line), now);

@@ -154,6 +154,10 @@ private:
                 return e.cancel_scan(LineId{r.index}, r.at);
             case FlightKind::hand:
                 return with<HandRecord>(r, [&](const HandRecord& h) { (void)e.set_hand(DriveId{r.index}, h.items, h.origin, r.at); });
+            case FlightKind::twin_memory:
+                return with<HandRecord>(r, [&](const HandRecord& h) {
+                    (void)e.adopt(DriveId{r.index}, {h.items.begin(), h.items.end()}, h.origin, r.at);
+                });
             case FlightKind::shut_down:
                 return e.shut_down(r.at);
             case FlightKind::received:

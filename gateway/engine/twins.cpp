@@ -93,6 +93,23 @@ std::string Twins::use_hand(DriveId id, const std::vector<std::pair<std::string,
     return {};
 }
 
+std::string Twins::adopt(DriveId id, NonVolatile memory, const Origin& origin, Instant now) {
+    Drive* d = machine_.drive(id);
+    if (!d) return "there is no such drive any more";
+    if (d->serving == Presence::twin)
+        return "the drive is simulated now: its twin adopts values while the real drive serves its axes, and shows them when it is away";
+    Event e;
+    e.kind = "twin";
+    e.drive = d->spec.name;
+    e.text = fmt::format("drive {}: its twin has adopted what the drive holds", d->spec.name);
+    e.who = origin.who ? *origin.who : "";
+    e.door = std::string(name_of(origin.door));
+    d->memory = std::move(memory);
+    host_.on_twin_memory(d->spec.name, d->memory);
+    publisher_.event(std::move(e), now);
+    return {};
+}
+
 Twin* Twins::of(DriveId id) const {
     Drive* d = machine_.drive(id);
     return d && d->serving == Presence::twin && d->line->twins ? d->line->twins->bus->twin(id) : nullptr;

@@ -17,6 +17,8 @@ public:
     /// Empty if the condition was set, otherwise the reason why not.
     [[nodiscard]] std::string use_hand(DriveId drive, const std::vector<std::pair<std::string, Value>>& items, const Origin& origin,
                                        Instant now);
+    /// The memory of the twin that does not serve now. Empty, or the reason why not.
+    [[nodiscard]] std::string adopt(DriveId drive, NonVolatile memory, const Origin& origin, Instant now);
 
 private:
     Machine& machine_;

@@ -82,10 +82,15 @@ struct CompareOptions {
     int seeds = 50;
     std::string state_file;  ///< memory of the twins when the recording begins
     int tolerance_ms = 20;
+    std::string line_uri;    ///< compares a drive on this line instead of a recording; `file` is empty then
+    int channel = 1;         ///< with `line_uri`: the axis within the drive
+    std::string adopt_file;  ///< with `line_uri`: the memory of a twin that is this drive is written here; empty: it is not
     bool json = false;
 };
 /// Compares a recorded drive with its twin. Exit code: 0 equal, 1 differences, 2 wrong usage, or a recording that cannot be compared.
 [[nodiscard]] int command_compare(const CompareOptions& options);
+/// Compares a drive on a line with its twin. Nothing is written to it. Exit code as command_compare; 2 if the drive does not answer.
+[[nodiscard]] int command_compare_line(const CompareOptions& options);
 
 /// "axisgate: TEXT" on standard error.
 void complain(const std::string& text);

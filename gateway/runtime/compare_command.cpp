@@ -20,6 +20,10 @@ int command_compare(const CompareOptions& o) {
         complain(f);
     if (!faults.empty()) return exit_failed;
     std::string fault, state;
+    if (o.file.empty()) {
+        complain("name a recording, or a line with --line");
+        return exit_usage;
+    }
     const auto refuse = [&fault] {
         complain(fault);
         return exit_usage;

@@ -8,8 +8,8 @@
 #include <set>
 
 #include "gateway/core/specimen.hpp"
-#include "gateway/runtime/memory_file.hpp"
 #include "gateway/runtime/recording.hpp"
+#include "gateway/services/parameters/memory_file.hpp"
 #include "gateway/site/options.hpp"
 
 namespace axisgate {
@@ -48,6 +48,12 @@ Loaded load(const CompareOptions& o, std::string_view bytes, RecordingFormat for
             return wrong(
                 fmt::format("the time steps back at frame {}: the recording is put together from several, or the clock was set", number));
         last = std::max(*last, *r.at_ns);
+        constexpr std::int64_t longest_ns = std::chrono::nanoseconds(std::chrono::hours(31 * 24)).count();
+        if (saturated_difference(*last, *first) > longest_ns)
+            return wrong(
+                fmt::format("frame {} is more than 31 days behind the first one: the recording is put together from several, or the "
+                            "clock was set",
+                            number));
         if (out.frames.size() == ComparisonInput::most_frames)
             return wrong(fmt::format("the recording has more than {} frames: compare a part of it", ComparisonInput::most_frames));
         SeenFrame& f = out.frames.emplace_back(SeenFrame{r.frame, r.to_drive});

@@ -19,7 +19,7 @@
 #include "gateway/runtime/command_tables.hpp"
 #include "gateway/runtime/commands.hpp"
 #include "gateway/runtime/files.hpp"
-#include "gateway/runtime/memory_file.hpp"
+#include "gateway/services/parameters/memory_file.hpp"
 #include "gateway/site/options.hpp"
 #include "gateway/wire/specimen_twin.hpp"
 

@@ -113,4 +113,12 @@ void WarmDrives::set_hand(DriveId drive, std::vector<std::pair<std::string, Valu
     if (!threads_.on_hot(std::move(job))) threads_.answer([then] { then(too_much_asked); });
 }
 
+void WarmDrives::adopt(DriveId drive, NonVolatile memory, Origin origin, std::function<void(std::string)> then) {
+    auto job = [this, drive, memory = std::move(memory), origin = std::move(origin), then](Engine& engine, Instant now) {
+        std::string fault = engine.adopt(drive, memory, origin, now);
+        threads_.answer([then, fault = std::move(fault)]() mutable { then(std::move(fault)); });
+    };
+    if (!threads_.on_hot(std::move(job))) threads_.answer([then] { then(too_much_asked); });
+}
+
 }  // namespace axisgate

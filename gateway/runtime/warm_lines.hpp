@@ -37,6 +37,7 @@ public:
     void hand(DriveId drive, std::function<void(std::optional<std::vector<HandItem>>)> then) override;
     void set_hand(DriveId drive, std::vector<std::pair<std::string, Value>> items, Origin origin,
                   std::function<void(std::string)> then) override;
+    void adopt(DriveId drive, NonVolatile memory, Origin origin, std::function<void(std::string)> then) override;
 
 private:
     const WarmThreads& threads_;

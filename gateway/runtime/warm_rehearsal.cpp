@@ -71,4 +71,16 @@ void WarmRehearsal::rehearse_recipe(std::shared_ptr<const RecipeRehearsal> rehea
     });
 }
 
+void WarmRehearsal::aside(std::shared_ptr<const SiteState> site, const std::string& drive, std::function<void(const NonVolatile&)> work,
+                          std::function<void()> then) {
+    auto memory = read_site_memory(threads_.reader, site->site);
+    NonVolatile own;
+    if (const auto it = memory.twins.find(drive); it != memory.twins.end()) own = std::move(it->second);
+    boost::asio::post(thread_, [this, own = std::move(own), work = std::move(work), then = std::move(then)]() mutable {
+        stand_back();
+        work(own);
+        threads_.answer(std::move(then));
+    });
+}
+
 }  // namespace axisgate

@@ -24,6 +24,8 @@ public:
         lease_ = lease;
     }
     void rehearse(std::shared_ptr<const SiteState> site, RehearsalWish wish, std::function<void(RehearsalCell)> then) override;
+    void aside(std::shared_ptr<const SiteState> site, const std::string& drive, std::function<void(const NonVolatile&)> work,
+               std::function<void()> then) override;
     [[nodiscard]] Duration watchdog() const override { return watchdog_; }
     void prepare_recipe(RecipeRehearsalWish wish, Prepared then) override;
     void rehearse_recipe(std::shared_ptr<const RecipeRehearsal> rehearsal, std::string specimen,

@@ -1,6 +1,6 @@
 // Fuzz target for the memory file of `axisgate twin --state`, and each family's twin started with it. Laws: an accepted file can be written
 // and is read as the same; a twin starts with any memory and keeps it.
-#include "gateway/runtime/memory_file.hpp"
+#include "gateway/services/parameters/memory_file.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -27,6 +27,7 @@
 #include "gateway/services/descriptions/description_files.hpp"
 #include "gateway/services/fail_safe/fail_safe_matrix.hpp"
 #include "gateway/services/parameters/axis_jobs.hpp"
+#include "gateway/services/parameters/drive_comparisons.hpp"
 #include "gateway/services/parameters/snapshots.hpp"
 #include "gateway/services/ports.hpp"
 #include "gateway/services/recipes/recipe_documents.hpp"
@@ -100,6 +101,10 @@ struct Picked<const PortSet<Port...>&> {
 template <>
 struct Picked<const Snapshots&> {
     static Snapshots from(const Context& context) { return {context.ports, context.jobs}; }
+};
+template <>
+struct Picked<const DriveComparisons&> {
+    static DriveComparisons from(const Context& context) { return {context.ports, context.jobs}; }
 };
 template <>
 struct Picked<const SiteStaging&> {
@@ -272,6 +277,10 @@ Handled get_snapshot(Call&, const Snapshots&);
 Handled remove_snapshot(Call&, const Snapshots&);
 Handled diff_snapshot(Call&, const Snapshots&);
 Handled restore_snapshot(Call&, const Snapshots&);
+// --- handlers_comparison.cpp ------------------------------------------------------------------------------------------
+Handled compare_with_twin(Call&, const DriveComparisons&);
+Handled get_comparison(Call&, const DriveComparisons&);
+Handled adopt_comparison(Call&, const DriveComparisons&);
 // --- handlers_parameter_table.cpp -------------------------------------------------------------------------------------
 Handled get_parameter_history(Call&, const ParameterPort&, const SitePort&);
 Handled get_parameters_csv(Call&, const ParameterPort&, const SitePort&);

@@ -10,40 +10,10 @@
 #include "gateway/core/text.hpp"
 #include "gateway/services/descriptions/description.hpp"
 #include "gateway/services/documents.hpp"
+#include "gateway/services/parameters/drive_sweep.hpp"
 
 namespace axisgate {
 namespace json = boost::json;
-namespace {
-/// Arrays up to this length are part of a snapshot; longer ones (programs, tables) are named in `left_out`.
-constexpr std::uint16_t most_elements_kept = 256;
-
-/// All readable parameters. Arrays that are too long, and parameters that the catalogue excludes from snapshots (`"snapshot": false`:
-/// present activity, on a line that is too slow to read everything), are put into `left_out`.
-std::vector<JobPoint> readable_points(const Catalogue& catalogue, std::vector<std::string>& left_out) {
-    std::vector<JobPoint> out;
-    const auto all = catalogue.parameters();
-    const auto* listed = catalogue.document().if_contains("parameters");
-    const json::array* document = listed ? listed->if_array() : nullptr;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        const Parameter& p = all[i];
-        if (!p.readable()) continue;
-        const auto index = static_cast<std::uint16_t>(i);
-        const auto* wanted =
-            document && i < document->size() && (*document)[i].is_object() ? (*document)[i].as_object().if_contains("snapshot") : nullptr;
-        const bool kept = !wanted || !wanted->is_bool() || wanted->as_bool();
-        if (!kept || p.count > most_elements_kept || out.size() + std::max<std::size_t>(p.count, 1) > most_points) {
-            left_out.push_back(p.id);
-            continue;
-        }
-        const std::uint32_t first = p.count == 0 ? 0 : p.first, end = p.count == 0 ? 1 : std::uint32_t{p.first} + p.count;
-        for (std::uint32_t e = first; e < end; ++e) {
-            const Point point{index, static_cast<std::uint16_t>(e)};
-            out.push_back({catalogue.id_of(point), point});
-        }
-    }
-    return out;
-}
-}  // namespace
 
 Refusable<std::vector<SnapshotInfo>> Snapshots::list(const std::string& axis) const {
     if (!find_axis(ports_.get<SitePort>(), axis)) return no_such("axis", axis);

@@ -23,6 +23,11 @@ public:
     /// Sets several conditions, all or none; empty if good, otherwise the fault.
     virtual void set_hand(DriveId drive, std::vector<std::pair<std::string, Value>> items, Origin origin,
                           std::function<void(std::string)> then) = 0;
+    /// The twin of a real drive starts with this memory when the drive is away next; empty if good, otherwise the fault.
+    virtual void adopt(DriveId drive, NonVolatile memory, Origin origin, std::function<void(std::string)> then) {
+        (void)drive, (void)memory, (void)origin;
+        then("this gateway has no twins");
+    }
 };
 
 }  // namespace axisgate

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "gateway/core/twin.hpp"
 #include "gateway/site/rehearsal_cell.hpp"
 #include "gateway/site/site_state.hpp"
 
@@ -34,6 +35,13 @@ public:
     /// One specimen, which takes from a millisecond to minutes; it is given up when `ended` becomes true, and `then` is called in any case.
     virtual void rehearse_recipe(std::shared_ptr<const RecipeRehearsal> rehearsal, std::string specimen,
                                  std::shared_ptr<const std::atomic<bool>> ended, std::function<void(RehearsedSpecimen)> then) = 0;
+    /// Gives the stored memory of the twin of a drive to `work`, on the thread of the rehearsals; then calls `then` on the service thread.
+    virtual void aside(std::shared_ptr<const SiteState> site, const std::string& drive, std::function<void(const NonVolatile&)> work,
+                       std::function<void()> then) {
+        (void)site, (void)drive;
+        work({});
+        then();
+    }
 };
 
 }  // namespace axisgate

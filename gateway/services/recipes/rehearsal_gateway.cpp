@@ -21,7 +21,6 @@ public:
     [[nodiscard]] LineStatus status(Instant) const override { return {}; }
 };
 
-constexpr std::size_t trace_frames = 16;
 }  // namespace
 
 Site simulated_site(Site site, const Families& families) {
@@ -40,7 +39,10 @@ Site simulated_site(Site site, const Families& families) {
 }
 
 RehearsalGateway::RehearsalGateway(const Families& families, Site site, const SiteMemory& memory, Duration lease)
-    : families_(families), engine_(families, *this, image_, trace_frames) {
+    : RehearsalGateway(families, std::move(site), memory, lease, Outside()) {}
+
+RehearsalGateway::RehearsalGateway(const Families& families, Site site, const SiteMemory& memory, Duration lease, Outside outside)
+    : families_(families), outside_(std::move(outside)), now_(outside_.begin), engine_(families, *this, image_, outside_.trace_frames) {
     engine_.set_lease(lease);
     (void)engine_.apply_site(std::move(site), memory, 1, now_);
     deliver();
@@ -50,6 +52,18 @@ void RehearsalGateway::step(Instant due) {
     now_ = std::max(now_ + std::chrono::microseconds(1), std::min(due, engine_.wake_at()));
     engine_.on_deadline(now_);
     deliver();
+}
+
+void RehearsalGateway::advance(Instant now) {
+    now_ = std::max(now_, now);
+    engine_.on_deadline(now_);
+    deliver();
+}
+
+const NonVolatile& RehearsalGateway::twin_memory(const std::string& drive) const {
+    static const NonVolatile none;
+    const auto it = memories_.find(drive);
+    return it == memories_.end() ? none : it->second;
 }
 
 void RehearsalGateway::deliver() {
@@ -91,7 +105,9 @@ void RehearsalGateway::apply_site(Site, std::uint64_t, Origin, std::function<voi
     then(std::move(answer));
 }
 
-std::unique_ptr<Line> RehearsalGateway::make_line(const LineSpec&, const LineSetup&) { return std::make_unique<NoLine>(); }
+std::unique_ptr<Line> RehearsalGateway::make_line(const LineSpec& spec, const LineSetup& setup) {
+    return outside_.make_line ? outside_.make_line(spec, setup) : std::make_unique<NoLine>();
+}
 
 void RehearsalGateway::on_event(Event event, Instant) {
     if (event.severity == Severity::info) return;

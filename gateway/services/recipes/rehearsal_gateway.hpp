@@ -1,6 +1,6 @@
-// A gateway in virtual time whose drives are all simulated, with the ports that the recipe service needs, and a place for doors of a
-// program outside. It has no connection to a line, to a store or to the running gateway. Bounds: the events of one rehearsal are not kept,
-// only the newest warning of a drive.
+// A gateway by itself, with the ports that a service needs, and a place for doors of a program outside: an engine without store and threads.
+// Usually its time is virtual and all its drives are simulated; a comparison gives it real lines and real time. It has no connection to the
+// running gateway. Bounds: the events are not kept, only the newest warning of a drive.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -32,15 +32,31 @@ class RehearsalGateway final : public EngineHost,
                                public EventPort,
                                public SitePort {
 public:
-    /// `site` is one of simulated_site. The drives are switched on at once; they are searched for and identified in the first steps.
+    /// What it gets from outside if it is not only simulated.
+    struct Outside {
+        std::function<std::unique_ptr<Line>(const LineSpec&, const LineSetup&)> make_line{};  ///< empty: lines never open
+        Instant begin = time_zero + std::chrono::seconds(1);
+        std::size_t trace_frames = 16;
+    };
+    /// `site` is one of simulated_site, unless `outside` makes lines. The drives are switched on at once; they are searched for and
+    /// identified in the first steps.
     RehearsalGateway(const Families& families, Site site, const SiteMemory& memory, Duration lease);
+    RehearsalGateway(const Families& families, Site site, const SiteMemory& memory, Duration lease, Outside outside);
 
     [[nodiscard]] Instant now() const noexcept { return now_; }
     /// Advances to the next event of the gateway, `due` at the latest, and delivers the results of commands.
     void step(Instant due);
+    /// Real time: everything that is due at `now`; and when this must be called next at the latest.
+    void advance(Instant now);
+    [[nodiscard]] Instant wake_at() const { return engine_.wake_at(); }
+    [[nodiscard]] const Engine& engine() const noexcept { return engine_; }
+    /// The memory of a simulated drive: as it was changed last, empty if it never was.
+    [[nodiscard]] const NonVolatile& twin_memory(const std::string& drive) const;
     [[nodiscard]] bool online(AxisId axis) const;
     [[nodiscard]] const Image& image() const noexcept { return image_; }
     [[nodiscard]] Engine& engine() noexcept { return engine_; }
+    /// Its drive answers, whether or not it has reported a state.
+    [[nodiscard]] bool answers(AxisId axis) const { return (picture(axis).flags & flag_online) != 0; }
     /// The newest warning or error of an axis, a drive or a line, with its name; empty: none.
     [[nodiscard]] const std::string& last_warning() const noexcept { return last_warning_; }
     void forget_warning() { last_warning_.clear(); }
@@ -83,15 +99,16 @@ public:
     void on_event(Event event, Instant at) override;
     void on_sample(const Sample& sample) override { doors_.on_sample(sample); }
     void on_store(StoreOrder order) override { stored_.push_back(order.ticket); }
-    void on_twin_memory(const std::string&, NonVolatile) override {}
+    void on_twin_memory(const std::string& drive, NonVolatile memory) override { memories_[drive] = std::move(memory); }
     [[nodiscard]] std::optional<Instant> last_received(const AuthorityClient& who) const override { return doors_.last_received(who); }
 
 private:
     void deliver();
 
     const Families& families_;
+    Outside outside_;
     Image image_;
-    Instant now_ = time_zero + std::chrono::seconds(1);
+    Instant now_;
     Engine engine_;
     std::uint64_t tickets_ = 0;
     std::map<Ticket, std::function<void(const Result&)>> waiting_;
@@ -100,6 +117,7 @@ private:
     std::vector<Command> given_;
     RehearsalDoors doors_;
     std::string last_warning_;
+    std::map<std::string, NonVolatile> memories_;
 };
 
 }  // namespace axisgate

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "gateway/runtime/memory_file.hpp"
+#include "gateway/services/parameters/memory_file.hpp"
 
 namespace axisgate {
 namespace {

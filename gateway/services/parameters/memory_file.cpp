@@ -1,5 +1,5 @@
 // An empty text means no memories; a number that does not fit is a fault and is not rounded.
-#include "gateway/runtime/memory_file.hpp"
+#include "gateway/services/parameters/memory_file.hpp"
 
 #include <fmt/core.h>
 

@@ -150,7 +150,8 @@ void Jobs::query_ended(Verdict v, const ReplyReader& r, Turn& t) {
     }
     const std::string items = job_.steps[job_.at].text;
     if (v != Verdict::refused) return fail(Reason::no_answer, fmt::format("{} did not answer PR {}", name(), items), t);
-    drive_.errors.ask(true);
+    // Where an error stood before this one, it is left as it is.
+    if (!drive_.bus.only_reads || !feedback().flags().ef) drive_.errors.ask(true);
     const auto hint = drive_.parameters.variable_hint();
     refuse(Reason::not_supported, hint.empty() ? fmt::format("{} does not have {}, or cannot show it now", name(), items) : hint, t);
 }

@@ -1,6 +1,7 @@
 // Plays a recording to twins in virtual time, and makes messages of frames. Both sides use a decoder of their own, which also reads the
 // requests, because some sentences depend on the request before them.
 #include <algorithm>
+#include <optional>
 
 #include "gateway/engine/comparison_parts.hpp"
 #include "gateway/wire/specimen_twin.hpp"
@@ -11,6 +12,8 @@ using namespace std::chrono_literals;
 
 /// The twins are switched on this long before the recording, and the recording is continued for `tail`, so that late answers are seen.
 constexpr Duration before = 5s, tail = 5s;
+/// A message of a twin behind a request is its answer within this time.
+constexpr Duration longest_answer = 1s;
 /// Limit of deadlines of one twin between two frames: a twin that stays due must not stop the time.
 constexpr std::size_t least_deadlines = 200'000, deadlines_per_frame = 50;
 /// Messages of the twin in one play.
@@ -81,14 +84,20 @@ private:
                 at = spent ? now : std::max(twin->deadline(), at + 1us);
                 if (at > now) break;
                 twin->on_deadline(at, out_);
-                take(at, request, false);
+                take(at, request, answers_late(at));
                 if (spent) break;
                 --deadlines_;
             }
         }
     }
 
+    /// On a byte line many twins send their answer with the pace of their port, and not from within the call that has the request.
+    [[nodiscard]] bool answers_late(Instant at) const noexcept {
+        return input_.kind == LineKind::bytes && open_request_ && at - *open_request_ <= longest_answer;
+    }
+
     void give(const Frame& frame, Instant at, std::size_t request) {
+        const std::size_t before_it = emitted_.size();
         Frame f = frame;
         f.at = at;
         for (auto& twin : twins_) {
@@ -96,6 +105,7 @@ private:
             twin->on_frame(f, at, out_);
             take(at, request, true);
         }
+        open_request_ = emitted_.size() == before_it ? std::optional(at) : std::nullopt;
         if (const std::uint64_t now = revision(); now != revision_) {
             revision_ = now;
             play_.memory_writes.push_back(time_zero + (at - first));
@@ -146,6 +156,7 @@ private:
     std::vector<Emitted> emitted_;
     std::size_t deadlines_;  ///< that are left: behind them the twin passes each gap of the recording in one step
     std::uint64_t revision_ = 0;
+    std::optional<Instant> open_request_;  ///< the last frame to the twins, if none of them answered it at once
     Play play_;
 };
 }  // namespace

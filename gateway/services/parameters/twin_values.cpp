@@ -176,10 +176,14 @@ Adoption adopt(const TwinPlace& place, NonVolatile memory, const std::vector<Job
         twin.rest();
         if (!twin.memory().empty()) out.memory = twin.memory();
     }
-    // Values that can only be read, such as a serial number, stand in some memories under the name of the parameter.
-    for (const SnapshotValue& v : held)
-        if (const auto it = out.memory.find(v.parameter); it != out.memory.end() && !twin_holds(before, v) && reasons.contains(v.parameter))
-            it->second = v.value;
+    // Values that can only be read, such as a serial number, stand in some memories under the name of the parameter, or of the parameter of
+    // which it is a field ("SN.serial").
+    for (const SnapshotValue& v : held) {
+        if (twin_holds(before, v) || !reasons.contains(v.parameter)) continue;
+        auto it = out.memory.find(v.parameter);
+        if (it == out.memory.end()) it = out.memory.find(v.parameter.substr(0, v.parameter.find('.')));
+        if (it != out.memory.end()) it->second = v.value;
+    }
     const TwinValues after = read_twin(place, out.memory, points);
     for (const SnapshotValue& v : held) {
         if (twin_holds(after, v)) {

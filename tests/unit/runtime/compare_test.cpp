@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <boost/json.hpp>
+#include <ostream>
 #include <sstream>
 
 #include "gateway/runtime/compare_input.hpp"
@@ -116,6 +117,70 @@ INSTANTIATE_TEST_SUITE_P(Families, EachFamily,
                                          Subject{"mcode", "!", LineKind::bytes}, Subject{"linmot", "17", LineKind::bytes},
                                          Subject{"pacontrol", "com1", LineKind::bytes}),
                          [](const auto& i) { return std::string(i.param.family) + (i.param.kind == LineKind::can ? "_can" : "_bytes"); });
+
+/// A parameter of a family is written and read, and one answer is replaced by that of a drive with another value.
+struct HandChange {
+    std::string family, address;
+    LineKind kind;
+    std::string parameter;
+    std::int64_t value, other;  ///< both with the same number of digits, so that the two recordings differ in these answers alone
+};
+void PrintTo(const HandChange& c, std::ostream* out) { *out << c.family << (c.kind == LineKind::can ? " on CAN" : " on bytes"); }
+class EachChange : public testing::TestWithParam<HandChange> {};
+
+struct RecordedText {
+    std::vector<std::string> lines;
+    std::vector<bool> from_drive;
+};
+RecordedText recorded_with(const HandChange& c, std::int64_t value) {
+    RecordedTwin r(families(), {.family = c.family, .address = c.address, .kind = c.kind});
+    r.run(3s);
+    const auto point = families().find(c.family).catalogue->find(c.parameter);
+    EXPECT_TRUE(point);
+    const Result written = r.ask(WriteParameter{*point, Value{value}});
+    EXPECT_TRUE(good(written)) << written.text;
+    for (int i = 0; i < 4; ++i) {
+        EXPECT_EQ(r.read(c.parameter).outcome, Outcome::done);
+        r.run(100ms);
+    }
+    RecordedText out{lines_of(c.kind == LineKind::can ? r.candump() : r.hex()), {}};
+    for (const auto& e : r.entries())
+        out.from_drive.push_back(!e.to_drive);
+    return out;
+}
+
+TEST_P(EachChange, AValueThatWasChangedByHandIsFound) {
+    const HandChange& c = GetParam();
+    const RecordedText drive = recorded_with(c, c.value), other = recorded_with(c, c.other);
+    ASSERT_EQ(drive.lines.size(), other.lines.size());
+    ASSERT_EQ(drive.lines.size(), drive.from_drive.size());
+    std::vector<std::size_t> answers;
+    for (std::size_t i = 0; i < drive.lines.size(); ++i)
+        if (drive.from_drive[i] && drive.lines[i] != other.lines[i]) answers.push_back(i);
+    ASSERT_GE(answers.size(), 4u);
+    auto lines = drive.lines;
+    const auto whole = compared(families(), manual(c.family, c.address), text_of(lines));
+    ASSERT_EQ(whole.fault, "");
+    EXPECT_TRUE(whole.result.differences.empty()) << whole.text();
+    const std::size_t at = answers[answers.size() - 2];
+    lines[at] = other.lines[at];
+    const auto changed = compared(families(), manual(c.family, c.address), text_of(lines));
+    ASSERT_EQ(changed.fault, "");
+    ASSERT_EQ(changed.result.differences.size(), 1u) << changed.text();
+    const Difference& d = changed.result.differences[0];
+    EXPECT_EQ(d.kind, Difference::Kind::value) << changed.text();
+    EXPECT_NE(d.recorded, d.twin);
+    EXPECT_FALSE(d.request.empty());
+    EXPECT_EQ(changed.result.unexplained(), 1u);
+}
+INSTANTIATE_TEST_SUITE_P(Families, EachChange,
+                         testing::Values(HandChange{"uim342", "5", LineKind::can, "AC", 4321, 4322},
+                                         HandChange{"uim342", "5", LineKind::bytes, "AC", 4321, 4322},
+                                         HandChange{"cia402", "5", LineKind::can, "6083h", 4321, 4322},
+                                         HandChange{"aposs", "5", LineKind::can, "VELMAX", 1234, 1235},
+                                         HandChange{"mcode", "!", LineKind::bytes, "HT", 432, 433},
+                                         HandChange{"linmot", "17", LineKind::bytes, "1018h", 432, 433},
+                                         HandChange{"pacontrol", "com1", LineKind::bytes, "SP[1]", 4, 5}));
 
 TEST(Compare, AValueThatWasChangedByHandIsFound) {
     auto lines = lines_of(servo());

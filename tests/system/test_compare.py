@@ -128,7 +128,8 @@ def test_a_gateway_compares_the_drive_that_it_serves_and_its_twin_adopts_the_val
             assert json.loads(memory.read_text()) == kept, "comparing has written nothing"
             adoption = g.send("POST", "/axes/feeder/comparison/adopt", None)
             assert "AC" in adoption["adopted"], adoption
-            assert any(e["kind"] == "twin" for e in g.get("/events?limit=50")), "adopting is an event"
+            kinds = {e["kind"] for e in g.get("/events?limit=50")}
+            assert {"twin", "comparison"} <= kinds, kinds
             drive.stop()
             until(lambda: g.axis()["presence"] == "twin" and g.axis()["online"], 20, "the twin takes over")
             assert g.get("/axes/feeder/parameters/AC")["value"] == 4321, "the twin is this drive"

@@ -299,6 +299,7 @@ def test_every_write_answers_as_described(gateway):
         ("getRecipeRehearsal", {"recipe": "warm-up"}, None, 200), ("getRecipeRehearsal", {"recipe": "nobody"}, None, 404),
         ("cancelRecipeRehearsal", {"recipe": "warm-up"}, None, 202), ("rehearseRecipe", {"recipe": "warm-up"}, {"specimens": "fast"}, 422),
         ("rehearseRecipe", {"recipe": "nobody"}, {}, 404), ("cancelRecipeRehearsal", {"recipe": "nobody"}, None, 404),
+        ("compareWithTwin", {"axis": "feeder"}, None, 409), ("compareWithTwin", {"axis": "nobody"}, None, 404), ("adoptComparison", {"axis": "feeder"}, None, 404),
         ("takeSnapshot", {"axis": "feeder"}, {"name": "one", "from": "stored"}, 201), ("takeSnapshot", {"axis": "feeder"}, {"name": 1}, 422),
         ("restoreSnapshot", {"axis": "feeder", "snapshot": "1"}, {"dry_run": True}, 200), ("removeSnapshot", {"axis": "feeder", "snapshot": "1"}, None, 204),
         ("importParameters", {"axis": "feeder"}, "parameter,value\nAC,20000\n", 200), ("importParameters", {"axis": "feeder"}, "parameter,value\nAC,x\n", 422),
@@ -367,7 +368,8 @@ def test_every_write_answers_as_described(gateway):
         mine = [c["id"] for c in gateway.get("/connections") if c["id"].startswith("modbus-")]
         seen.add(("closeConnection", check(operation("closeConnection"), client.request("DELETE", f"/api/v1/connections/{mine[0]}"), "my own connection")))
     missing = {(o.id, s) for o in API.operations if o.method != "GET" for s in o.good()} - seen - {("commandFleetAxis", 200),
-                                                                                                   ("actOnAxis", 200), ("takeSnapshot", 202), ("restoreSnapshot", 202), ("importParameters", 202)}
+                                                                                                   ("actOnAxis", 200), ("compareWithTwin", 200), ("compareWithTwin", 202),
+                                                                                                   ("adoptComparison", 200), ("takeSnapshot", 202), ("restoreSnapshot", 202), ("importParameters", 202)}
     assert not missing, f"described but never seen: {missing}"
     assert gateway.get("/site") == site
 

@@ -154,16 +154,18 @@ TEST_P(EachChange, AValueThatWasChangedByHandIsFound) {
     const RecordedText drive = recorded_with(c, c.value), other = recorded_with(c, c.other);
     ASSERT_EQ(drive.lines.size(), other.lines.size());
     ASSERT_EQ(drive.lines.size(), drive.from_drive.size());
+    // The stamps may differ, because stuffed bits depend on the value.
+    const auto content = [](const std::string& line) { return line.substr(line.find(')')); };
     std::vector<std::size_t> answers;
     for (std::size_t i = 0; i < drive.lines.size(); ++i)
-        if (drive.from_drive[i] && drive.lines[i] != other.lines[i]) answers.push_back(i);
+        if (drive.from_drive[i] && content(drive.lines[i]) != content(other.lines[i])) answers.push_back(i);
     ASSERT_GE(answers.size(), 4u);
     auto lines = drive.lines;
     const auto whole = compared(families(), manual(c.family, c.address), text_of(lines));
     ASSERT_EQ(whole.fault, "");
     EXPECT_TRUE(whole.result.differences.empty()) << whole.text();
     const std::size_t at = answers[answers.size() - 2];
-    lines[at] = other.lines[at];
+    lines[at] = lines[at].substr(0, lines[at].find(')')) + content(other.lines[at]);
     const auto changed = compared(families(), manual(c.family, c.address), text_of(lines));
     ASSERT_EQ(changed.fault, "");
     ASSERT_EQ(changed.result.differences.size(), 1u) << changed.text();

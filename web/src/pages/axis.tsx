@@ -13,6 +13,7 @@ import { Gate } from '../components/gate';
 import { Console } from '../components/console';
 import { ErrorHelp } from '../components/error-help';
 import { EventList } from '../components/events';
+import { DriveCompare } from '../components/drive-comparison';
 import { Hand } from '../components/hand';
 import { Empty } from '../components/lines';
 import { memo } from '../components/memo';
@@ -130,6 +131,9 @@ export function AxisPage({ name, tab }: { name: string; tab: AxisTab }) {
           </Section>
           <Section title={t('Specimen')} help="specimens">
             <Specimen key={axis.drive} drive={axis.drive} family={axis.family} />
+          </Section>
+          <Section title={t('Drive and twin')} help="compare">
+            <DriveCompare key={name} axis={name} />
           </Section>
         </>
       )}

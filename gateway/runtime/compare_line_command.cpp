@@ -44,7 +44,7 @@ std::string check_line(const CompareOptions& o, const Family& family, SweepOrder
     return {};
 }
 
-std::string check_options(const CompareOptions& o, const Catalogue& page, SweepOrder& order) {
+std::string take_twin_options(const CompareOptions& o, const Catalogue& page, SweepOrder& order) {
     auto& options = order.wish.options;
     for (const auto& x : o.options) {
         const auto equals = x.find('=');
@@ -73,7 +73,7 @@ std::string order_of(const CompareOptions& o, const FamilyEntry& entry, SweepOrd
     if (o.channel > entry.catalogue->most_channels())
         return fmt::format("--channel: a drive of {} has at most {}", family.name, entry.catalogue->most_channels());
     if (auto wrong = check_line(o, family, order); !wrong.empty()) return wrong;
-    if (auto wrong = check_options(o, *entry.catalogue, order); !wrong.empty()) return wrong;
+    if (auto wrong = take_twin_options(o, *entry.catalogue, order); !wrong.empty()) return wrong;
     if (o.state_file.empty()) return {};
     std::string fault;
     const auto text = read_file(o.state_file, fault);

@@ -21,7 +21,7 @@ std::string some_of(const std::vector<std::string>& names) {
 }  // namespace
 
 void Survey::plan_listing(Instant now) {
-    if (drive_.bus.only_reads) return;  // behind a listing ER is asked if an error stands, which clears it
+    if (drive_.bus.only_reads) return;          // behind a listing ER is asked if an error stands, which clears it
     if (std::exchange(listing_, true)) return;  // it keeps the turn that it has
     Instant& next = drive_.bus.next_listing;
     listing_at_ = std::max(now, next);

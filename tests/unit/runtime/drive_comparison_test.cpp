@@ -116,8 +116,8 @@ TEST_P(EachDrive, TheDriveGetsNothingButQuestions) {
     EXPECT_GT(asked, 2 * input.sweep.values.size() - 1);
 }
 
-const std::string sdo = R"(read [0-9A-F]{4}h:[0-9A-F]{2}.*\?$|segment of)", uirobot = "^[^=]*$", prints = R"(PR )", reads = "reads |asks|curve message 08h|table message 05h",
-                  gets = "get|read|state|cmd_send";
+const std::string sdo = R"(read [0-9A-F]{4}h:[0-9A-F]{2}.*\?$|segment of)", uirobot = "^[^=]*$", prints = R"(PR )",
+                  reads = "reads |asks|curve message 08h|table message 05h", gets = "get|read|state|cmd_send";
 INSTANTIATE_TEST_SUITE_P(
     Families, EachDrive,
     testing::Values(Case{"cia402", "5", LineKind::can, "6083h", 4321, sdo}, Case{"aposs", "3", LineKind::can, "VELMAX", 1234, sdo},

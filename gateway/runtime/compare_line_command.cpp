@@ -96,7 +96,8 @@ public:
         signals.async_wait([&](const boost::system::error_code& ec, int) { ended = !ec; });
         boost::asio::steady_timer timer(io_);
         while (!sweep_.over() && !ended) {
-            const Instant until = std::min({gateway_.wake_at(), sweep_.deadline(), monotonic_now() + std::chrono::milliseconds(100)});
+            const Instant until =
+                std::min({gateway_.engine().wake_at(), sweep_.deadline(), monotonic_now() + std::chrono::milliseconds(100)});
             timer.expires_at(std::chrono::steady_clock::time_point(
                 std::chrono::duration_cast<std::chrono::steady_clock::duration>(until.time_since_epoch())));
             timer.async_wait([](const boost::system::error_code&) {});

@@ -46,9 +46,8 @@ public:
     [[nodiscard]] Instant now() const noexcept { return now_; }
     /// Advances to the next event of the gateway, `due` at the latest, and delivers the results of commands.
     void step(Instant due);
-    /// Real time: everything that is due at `now`; and when this must be called next at the latest.
+    /// Real time: everything that is due at `now`. It is called again when engine().wake_at() has come, or a line has received something.
     void advance(Instant now);
-    [[nodiscard]] Instant wake_at() const { return engine_.wake_at(); }
     [[nodiscard]] const Engine& engine() const noexcept { return engine_; }
     /// The memory of a simulated drive: as it was changed last, empty if it never was.
     [[nodiscard]] const NonVolatile& twin_memory(const std::string& drive) const;

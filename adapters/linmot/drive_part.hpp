@@ -17,10 +17,6 @@ using drive::Turn;
 class Drive;
 using Part = drive::Part<Drive>;
 
-/// From an order to the first response that must show its effect. A response may be older than the telegram that it answers; no document
-/// prints by how much.
-constexpr Duration shown_within = std::chrono::seconds(1);
-
 /// The members that the drives of a line share.
 struct Bus : drive::Bus {
     explicit Bus(const Catalogue& of_family) : drive::Bus(of_family), motions(of_family) {}

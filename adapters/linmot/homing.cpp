@@ -37,10 +37,9 @@ std::optional<Telegram> Homing::request(Turn& t) {
         return refused(Reason::drive_refused, fmt::format("drive {}: {}", drive_.title(), feedback.error_text()), t,
                        feedback.status().sub_state());
     }
-    if (job().limit == never) job().limit = t.now + shown_within;
-    if (t.now >= job().limit) {
+    if (job().step > 6) {
         feedback.homing_failed();
-        release_ = true;  // a search that begins after this answer must not go on
+        (void)drive_.control.write(cw_on);
         fail(Reason::drive_refused, fmt::format("drive {} does not begin to home; it stays in {}", drive_.title(), feedback.state_text()),
              t);
         return std::nullopt;
@@ -50,15 +49,13 @@ std::optional<Telegram> Homing::request(Turn& t) {
 }
 
 void Homing::watch(Turn& t) {
+    if ((drive_.control.word() & cw_home) == 0) return;
     Feedback& feedback = drive_.feedback;
     const Status& s = feedback.status();
-    if (s.state() != state::homing) ended_at_.reset();
-    if ((drive_.control.word() & cw_home) == 0) return;
     if (s.state() == state::homing) {
         searching_ = s.sub_state() != finished;
         if (searching_) return;
         release_ = true;
-        if (!ended_at_) ended_at_ = t.now;
         feedback.homing_attained();
         return drive_.demand.rest(s.position);
     }

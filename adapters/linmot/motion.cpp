@@ -10,7 +10,7 @@
 namespace axisgate::linmot {
 namespace {
 constexpr Duration look_again = std::chrono::milliseconds(5);
-constexpr int looks = 6;  ///< reads of a motion command's effect, at least, until it counts as not executed
+constexpr int looks = 6;  ///< reads of the count of a motion command until it counts as not executed
 /// Increments per second to counts of 1e-6 m/s (1 = 10), per second squared to 1e-5 m/s2 (1 = 100); never 0.
 std::int64_t counts(std::int64_t value, std::int64_t per) { return std::max<std::int64_t>((value + per / 2) / per, 1); }
 }  // namespace
@@ -135,8 +135,7 @@ void MotionOrders::answered(const Telegram&, Turn& t) {
                     fmt::format("drive {} went to {} while {} was sent", drive_.title(), feedback.state_text(), j.text), t);
     }
     if (!executed) {
-        if (j.limit == never) j.limit = t.now + shown_within;
-        if (++j.step <= looks || t.now < j.limit) {
+        if (++j.step <= looks) {
             j.not_before = t.now + look_again;
             return;
         }

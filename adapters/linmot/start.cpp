@@ -101,11 +101,8 @@ void Start::read(const Telegram& telegram, Turn& t) {
 void Start::read_silent(Turn& t) {
     reading_.silent();
     if (!reading_.given_up()) return;
-    // A drive that leaves one of them unanswered answers none, and further silences would count as its absence.
-    do {
-        drive_.limits.at(reading_.at()).reset();
-    } while (!reading_.done());
-    ready("; it does not answer reads of RAM values", t);
+    drive_.limits.at(reading_.at()).reset();
+    if (reading_.done()) ready("; it does not answer reads of RAM values", t);
 }
 
 /// The RAM has its power-on values after each restart of the drive, which leads to a start here, too.

@@ -85,8 +85,7 @@ void Stops::answered(Turn& t) {
     else if (main == state::enabled && s->step == 1)
         done = (status.sub_state() & 0x0F) == s->count;
     if (!done) {
-        if (s->limit == never) s->limit = t.now + shown_within;
-        if (++s->tries < 4 || t.now < s->limit) return;  // sent again at once: the same control word, the same count
+        if (++s->tries < 4) return;  // sent again at once: the same control word, the same count
         return over(Outcome::failed, Reason::drive_refused,
                     fmt::format("drive {} stays in {} after {}; its control word may be held by inputs, parameters or another tool",
                                 drive_.title(), drive_.feedback.state_text(), name_of(s->command.body)),

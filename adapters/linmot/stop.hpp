@@ -14,7 +14,6 @@ struct Stop {
     Command command;
     int step = 0;
     int tries = 0;
-    Instant limit = never;  ///< until then the drive may show a state from before the stop
     std::uint8_t count = 0;
 };
 

@@ -169,11 +169,14 @@ private:
             if (happens("doubled", manners_.doubled_share)) put(tx, at);
         }
     }
-    /// Frames that it sends by itself.
+    /// Frames that it sends by itself. Those of the lowest priority are no answers: on a byte line they are left out while the line is
+    /// busy.
     void keep(const Out& own, Instant now) {
         for (const auto& tx : own.frames) {
             ++messages_;
-            put(tx, std::max(now, tx.frame.at));
+            const Instant at = std::max(now, tx.frame.at);
+            const bool waits_for_the_line = tx.priority == Priority::poll && tx.frame.kind == Frame::Kind::bytes;
+            if (!waits_for_the_line || std::max(stream_free_, silent_until_) <= at) put(tx, at);
         }
     }
 

@@ -13,9 +13,21 @@ namespace axisgate {
 struct TwinBus::Node {
     std::unique_ptr<Twin> twin;
     SendQueue queue;
-    std::size_t ear = 0;       // in ears_
-    std::size_t place = npos;  // in heap_
+    std::size_t ear = 0;                  // in ears_
+    std::size_t place = npos;             // in heap_
+    std::bitset<Frame::capacity> missed;  // bytes of the host's transmission of `missed_of` during which it was sending
+    Instant missed_of = never;
     static constexpr std::size_t npos = static_cast<std::size_t>(-1);
+
+    /// On one pair of wires the receiver of a drive is switched off while the drive sends.
+    [[nodiscard]] Frame heard_of(const Frame& frame) const {
+        Frame heard = frame;
+        heard.size = 0;
+        for (std::size_t i = 0; i < frame.size; ++i) {
+            if (!missed[i]) heard.storage[heard.size++] = frame.storage[i];
+        }
+        return heard;
+    }
 };
 
 TwinBus::TwinBus(const TwinBusOptions& options) : options_(options) {
@@ -359,11 +371,16 @@ void TwinBus::garble_overlap(Transmission& a, Transmission& b) noexcept {
     const Instant from = std::max(a.start, b.start), to = std::min(a.end, b.end);
     for (Transmission* x : {&a, &b}) {
         counters_.collisions += x->garbled.any() ? 0 : 1;
+        const Number other = x == &a ? b.sender : a.sender;
+        Node* deaf = x->sender == host && other != gone ? nodes_[other].get() : nullptr;
+        if (deaf && std::exchange(deaf->missed_of, x->start) != x->start) deaf->missed.reset();
         const auto duration = (x->end - x->start).count();
         for (std::uint16_t i = 0; i < x->frame.size; ++i) {
             const Instant begins = x->start + Duration{duration * i / x->frame.size};
             const Instant ends = x->start + Duration{duration * (i + 1) / x->frame.size};
-            if (ends <= from || begins >= to || x->garbled[i]) continue;
+            if (ends <= from || begins >= to) continue;
+            if (deaf) deaf->missed[i] = true;
+            if (x->garbled[i]) continue;
             x->garbled[i] = true;
             x->frame.storage[i] = static_cast<std::uint8_t>(~x->frame.storage[i]);
         }
@@ -431,7 +448,13 @@ std::span<const TwinBus::Number> TwinBus::who_receives(std::uint32_t id) {
 void TwinBus::deliver_to_twins(Instant t) {
     for (const Number number : who_receives(done_.frame.id)) {  // twins cannot reach the bus, so the list does not change
         if (number == done_.sender) continue;
-        nodes_[number]->twin->on_frame(done_.frame, t, scratch_);
+        Node& node = *nodes_[number];
+        const bool missed = done_.sender == host && done_.garbled.any() && node.missed_of == done_.start && node.missed.any();
+        if (!missed) {
+            node.twin->on_frame(done_.frame, t, scratch_);
+        } else if (const Frame heard = node.heard_of(done_.frame); heard.size > 0) {
+            node.twin->on_frame(heard, t, scratch_);
+        }
         take(number, t);
     }
 }

@@ -30,7 +30,8 @@ public:
     }
     void on_deadline(Instant now, Out& out) override {
         next = never;
-        if (power) send(own, now, out);
+        own.at = now;
+        if (power) out.send(own, own_priority);
     }
     [[nodiscard]] Instant deadline() const override { return next; }
     void power_on(const NonVolatile& m, Instant now, Out& out) override {
@@ -56,6 +57,7 @@ public:
     }
     std::vector<std::string> heard;
     Frame own = text("tick");
+    Priority own_priority = Priority::command;
     Instant next = never, on_at{};
     NonVolatile memory;
     std::uint64_t revision = 0;
@@ -129,6 +131,24 @@ std::vector<Duration> reply_times(const FreedomValues& freedoms, std::uint64_t s
 }
 
 int count(const std::vector<Duration>& times, Duration of) { return static_cast<int>(std::ranges::count(times, of)); }
+
+TEST(SpecimenTwin, SenderOfNoAnswerLeavesABusyByteLineAlone) {
+    for (const bool answer : {true, false}) {
+        Specimen s({{"reply_ms", 40}});
+        s.inside->own_priority = answer ? Priority::command : Priority::poll;
+        s.take();
+        s.hear(text("a"));
+        s.inside->next = begin + ms(10);  // the answer is being prepared, and the line is its own
+        s.until(ms(30));
+        s.inside->next = begin + ms(50);
+        s.until(ms(60));
+        const auto sent = s.take();
+        if (answer)
+            EXPECT_THAT(sent, ElementsAre(Sent{ms(40), "a"}, Sent{ms(40), "tick"}, Sent{ms(50), "tick"}));
+        else
+            EXPECT_THAT(sent, ElementsAre(Sent{ms(40), "a"}, Sent{ms(50), "tick"}));
+    }
+}
 
 TEST(SpecimenTwin, WithoutAFreedomItIsTheTwinItself) {
     for (const FreedomValues& off : {FreedomValues{}, FreedomValues{{"reply_ms", 0}, {"late_per_mille", 500}, {"chunk_pause_ms", 5}}}) {

@@ -378,6 +378,22 @@ TEST(TwinBusBytes, twoSendersAtOnceGarbleEachOther) {
     EXPECT_EQ(b.bus.status(begin + ms(1)).errors, 2u);
 }
 
+TEST(TwinBusBytes, aDriveDoesNotReceiveWhileItSendsOnThatPair) {
+    Bus b(wires(1'000'000));
+    ScriptTwin& one = b.add(1);
+    one.shout = text("1111");  // 10 us each
+    b.send(text("hhhhhhhh"));
+    b.run_to(begin + us(20));
+    (void)b.bus.set_hand(DriveId{1}, "shout", true, begin + us(20));  // over bytes 2 to 5
+    b.run_to(begin + ms(1));
+    ASSERT_EQ(one.received.size(), 1u);
+    EXPECT_EQ(as_text(one.received[0].first), "hhhh");
+    b.send(text("later"), begin + ms(1));
+    b.run_to(begin + ms(2));
+    ASSERT_EQ(one.received.size(), 2u);
+    EXPECT_EQ(as_text(one.received[1].first), "later");
+}
+
 TEST(TwinBusBytes, aThirdSenderDoesNotMakeItGoodAgain) {
     Bus b(wires(1'000'000));
     for (const int key : {1, 2, 3}) {

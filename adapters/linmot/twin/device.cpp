@@ -147,10 +147,10 @@ std::vector<std::uint8_t> Device::telegram(std::uint8_t id, std::span<const std:
     return t;
 }
 
-void Device::send(std::span<const std::uint8_t> bytes, Instant at, Out& out) const {
+void Device::send(std::span<const std::uint8_t> bytes, Instant at, Out& out, Priority priority) const {
     Frame frame = Frame::run(bytes);
     frame.at = at;
-    out.send(frame);
+    out.send(frame, priority);
 }
 
 void Device::answer(std::uint8_t sub, std::vector<std::uint8_t> data, Out& out) const {
@@ -172,10 +172,12 @@ void Device::answer_later(Duration time, const Out& answers) {
 void Device::speak_foreign(Instant at, Out& out) const {
     const auto id = static_cast<std::uint8_t>(setup_.id ^ 0x80);
     const std::array<std::uint8_t, 2> request{1, 0};
-    send(telegram(id, request), at, out);
     std::vector<std::uint8_t> response{0, 0, Comm::ok, 0x37, 0x04, 0xC1, 0x08};
     put(response, static_cast<std::uint32_t>(ns_of(at) / 1'000'000), 4);
-    send(telegram(id, response), at + std::chrono::milliseconds(2), out);
+    std::vector<std::uint8_t> both = telegram(id, request);
+    const auto answer = telegram(id, response);
+    both.insert(both.end(), answer.begin(), answer.end());
+    send(both, at, out, Priority::poll);
 }
 
 /// Everything that is sent without a request and is due.
@@ -188,7 +190,10 @@ void Device::unasked(Instant now, Out& out) {
         } else {
             at_ = unsolicited_at_;
             advance(at_);
-            if (at_ >= deaf_until_) default_response(out);
+            Out own;
+            if (at_ >= deaf_until_) default_response(own);
+            for (const auto& tx : own.frames)
+                out.send(tx.frame, Priority::poll);
             unsolicited_at_ += manners().unsolicited;
         }
     }

@@ -49,7 +49,7 @@ private:
     void advance(Instant now) const { shown_.advance(drive_, now); }
     [[nodiscard]] bool heeds(std::uint8_t main, std::size_t size, Instant now) const;
     [[nodiscard]] std::vector<std::uint8_t> telegram(std::uint8_t id, std::span<const std::uint8_t> body) const;
-    void send(std::span<const std::uint8_t> bytes, Instant at, Out& out) const;
+    void send(std::span<const std::uint8_t> bytes, Instant at, Out& out, Priority priority = Priority::command) const;
     void answer(std::uint8_t sub, std::vector<std::uint8_t> data, Out& out) const;
     void answer_later(Duration time, const Out& answers);
     void unasked(Instant now, Out& out);

@@ -45,10 +45,6 @@ Words ShownWords::at(const Drive& drive, Instant now) const {
     take_bit(shown.status, 0x0400u, in_target);
     take_bit(shown.status, 0x2000u, moves);
     take_bit(shown.status, 0x0080u, shown.warn != 0);
-    if (shown.state_var >> 8 == operation_enabled) {
-        take_bit(shown.state_var, 0x40u, in_target);
-        take_bit(shown.state_var, 0x20u, moves);
-    }
     return shown;
 }
 

@@ -70,20 +70,27 @@ void LineAdapter::leaving(Drive& d, Turn& t) {
 
 void LineAdapter::line_changed(Turn& t) {
     TurnsAdapter::line_changed(t);
+    bus_.shared.line_changed();
+    quiet_until_ = t.now;
+    waits_for_silence_ = false;
     free_line();
 }
 
 void LineAdapter::arrived(const Frame& frame, Turn& t) {
     if (!bus_.is_run(frame)) return;
+    const std::size_t overlapped = bus_.shared.heard(t.now, frame.size, bus_.wire(1));
+    if (overlapped > 0) ++bus_.counters.garbled;
     framer_.push(
-        frame.data(), [&](const Telegram& telegram, std::span<const std::uint8_t>) { received(telegram, t); },
+        frame.data().subspan(overlapped), [&](const Telegram& telegram, std::span<const std::uint8_t>) { received(telegram, t); },
         [&](std::span<const std::uint8_t>, std::string_view) { ++bus_.counters.garbled; });
+    if (!drives().find([](const Drive& d) { return d.stream.on(); })) quiet_until_ = bus_.shared.silent_at(t.now);
 }
 
 void LineAdapter::received(const Telegram& telegram, Turn& t) {
     Drive* d = asked_;
     if (!d || telegram.id != d->id() || !d->exchanges.answers(telegram)) {
         ++bus_.counters.unexpected;
+        if (!d || !d->exchanges.echoes(telegram)) bus_.shared.strange(t.now);
         if (Drive* other = drives().find([&](const Drive& x) { return x.id() == telegram.id; }); other && telegram.main == 0) {
             other->unasked(t);
             settle(*other, t);
@@ -123,8 +130,14 @@ void LineAdapter::on_deadline(Instant now, Out& out) {
     end(t);
 }
 
+Instant LineAdapter::deadline() const {
+    const Instant at = TurnsAdapter::deadline();
+    return waits_for_silence_ ? std::min(at, quiet_until_) : at;
+}
+
 void LineAdapter::give(Turn& t) {
-    while (!asked_) {
+    waits_for_silence_ = up() && !asked_ && t.now < quiet_until_;
+    while (!asked_ && !waits_for_silence_) {
         const auto slot = bus_.turns.next(t.now);
         if (!slot) return;
         Drive* d = drives().at(*slot);

@@ -19,6 +19,7 @@ public:
     explicit LineAdapter(const Catalogue& of_family) : TurnsAdapter(bus_), bus_(of_family) {}
 
     void on_deadline(Instant now, Out& out) override;
+    [[nodiscard]] Instant deadline() const override;
 
 private:
     void take(const LineSetup& setup, Turn& t) override;
@@ -34,6 +35,8 @@ private:
     Bus bus_;
     Framer framer_;
     Drive* asked_ = nullptr;  ///< its answer is awaited
+    Instant quiet_until_{};   ///< no request before that, on a line on which others speak
+    bool waits_for_silence_ = false;
 };
 
 }  // namespace axisgate::linmot

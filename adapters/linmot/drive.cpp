@@ -101,7 +101,7 @@ void Drive::submit(const Command& command, Turn& t) {
 
 Want Drive::wants(Instant now) const noexcept {
     if (presence.is(Phase::down) || !exchanges.ready(now)) return Want::nothing;
-    if (!stops.empty()) return Want::urgent;
+    if (!stops.empty()) return now >= stops.wish() ? Want::urgent : Want::nothing;
     if (!served()) return presence.probe_due(now) ? Want::probe : Want::nothing;
     if (stream.on()) return stream.ending() || now >= stream.next() ? Want::command : Want::nothing;
     if (start.reads() || homing.to_release() || jobs.wants(now) || (jobs.idle() && stream.waits())) return Want::command;
@@ -113,16 +113,17 @@ Instant Drive::wish() const noexcept {
     if (presence.is(Phase::down)) return never;
     Instant at = presence.deadline();
     if (served()) {
-        if (stream.on()) return std::max(stops.empty() && !stream.ending() ? stream.next() : Instant{}, exchanges.ready_at());
+        if (stream.on())
+            return std::max(!stops.empty() ? stops.wish() : !stream.ending() ? stream.next() : Instant{}, exchanges.ready_at());
         at = std::min({at, poll.deadline(), jobs.wish()});
         if (homing.to_release() || start.reads() || (jobs.idle() && stream.waits())) at = Instant{};
     }
-    if (!stops.empty()) at = Instant{};
+    if (!stops.empty()) at = stops.wish();
     return std::max(at, exchanges.ready_at());
 }
 
 void Drive::go(Turn& t) {
-    if (exchanges.active()) return;
+    if (exchanges.active() || (!stops.empty() && t.now < stops.wish())) return;
     if (stream.on() && stream.ending() && stops.empty_or_halt()) return stream.send(t);
     if (auto telegram = stops.request(t)) return exchanges.send({std::move(*telegram), Purpose::stop}, t);
     if (!served()) return start.probe(t);

@@ -11,12 +11,13 @@ Ticket Exchanges::order_of(const Request& r) const noexcept {
 }
 
 void Exchanges::send(Request r, Turn& t) {
-    const Bus& bus = drive_.bus;
+    Bus& bus = drive_.bus;
     const auto bytes = pack(r.telegram, bus.checksum);
     const Duration both = bus.wire(bytes.size() + wire_size(drive_.start.response_size() + value_size, bus.checksum));
-    const bool once =
-        r.purpose == Purpose::probe || r.purpose == Purpose::poll || r.purpose == Purpose::stream || r.any_length || r.quiet || r.once;
     const bool poll = r.purpose == Purpose::poll || r.purpose == Purpose::probe;
+    const bool once = (poll && !bus.shared.shared(t.now)) || r.purpose == Purpose::stream || r.any_length || r.quiet || r.once;
+    bus.shared.sends(t.now, bus.wire(bytes.size()));
+    timed_out_at_ = never;
     t.out.send(Frame::run(bytes), r.purpose == Purpose::stop ? Priority::urgent : poll ? Priority::poll : Priority::command, order_of(r));
     const auto period = r.purpose == Purpose::stream ? drive_.stream.patience() : std::nullopt;
     exchange_.begin(std::move(r), t.now, period.value_or(bus.timing.reply_timeout + both), once ? 0 : bus.timing.retries);
@@ -54,11 +55,22 @@ Request Exchanges::answered() {
 }
 
 bool Exchanges::on_deadline(Turn& t) {
+    SharedLine& shared = drive_.bus.shared;
+    if (active() && t.now >= deadline() && exchange_.repeatable()) {
+        timed_out_at_ = std::min(timed_out_at_, t.now);
+        const Instant at = shared.repeat_at(t.now, timed_out_at_, exchange_.tries());
+        if (at > t.now) {
+            exchange_.extend(at);
+            return false;
+        }
+    }
+    timed_out_at_ = never;
     const auto late = exchange_.on_deadline(t.now, drive_.bus.counters);
     if (late == drive::Late::repeat) {
         repeated_at_ = t.now;
-        t.out.send(Frame::run(pack(request().telegram, drive_.bus.checksum)),
-                   request().purpose == Purpose::stop ? Priority::urgent : Priority::command, order_of(request()));
+        const auto bytes = pack(request().telegram, drive_.bus.checksum);
+        shared.sends(t.now, drive_.bus.wire(bytes.size()));
+        t.out.send(Frame::run(bytes), request().purpose == Purpose::stop ? Priority::urgent : Priority::command, order_of(request()));
     }
     return late == drive::Late::over;
 }

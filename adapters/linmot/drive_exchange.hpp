@@ -26,6 +26,8 @@ public:
     /// The telegram answers the request: same group, the same number if the answer has one, and the size that the response of this drive
     /// has. A response that the drive sends without a request is not distinguishable from an answer with the same content.
     [[nodiscard]] bool answers(const Telegram& telegram) const noexcept;
+    /// The outstanding request itself, as a converter returns it that hears what it sends.
+    [[nodiscard]] bool echoes(const Telegram& telegram) const noexcept { return active() && request().telegram == telegram; }
     [[nodiscard]] Request answered();
     /// True: the exchange has ended without an answer after all repetitions.
     [[nodiscard]] bool on_deadline(Turn& t);
@@ -50,6 +52,7 @@ private:
     drive::Exchange<Request> exchange_;
     drive::LateTime late_;
     Instant repeated_at_ = Instant::min();
+    Instant timed_out_at_ = never;  ///< of the request that waits for its repetition
 };
 
 }  // namespace axisgate::linmot

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "adapters/linmot/motion_commands.hpp"
+#include "adapters/linmot/shared_line.hpp"
 #include "adapters/linmot/wire.hpp"
 #include "gateway/drive/bus.hpp"
 #include "gateway/drive/part.hpp"
@@ -17,12 +18,17 @@ using drive::Turn;
 class Drive;
 using Part = drive::Part<Drive>;
 
+/// A drive may show the effect of an order so long after it has answered the order: its response may have been made up before. The manual
+/// prints no time; until then an effect that is not shown is no refusal.
+inline constexpr Duration shown_within = std::chrono::seconds(1);
+
 /// The members that the drives of a line share.
 struct Bus : drive::Bus {
     explicit Bus(const Catalogue& of_family) : drive::Bus(of_family), motions(of_family) {}
     Motions motions;
     ChecksumRule checksum;
     std::size_t drives = 0;  ///< on the line
+    SharedLine shared;
 };
 
 /// The options of the drive in the site, read once (README.md).

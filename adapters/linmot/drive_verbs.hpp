@@ -52,10 +52,11 @@ public:
     void answered(const Telegram& telegram, Turn& t) override;
 
     [[nodiscard]] Telegram telegram(const Motion& motion, std::uint8_t count, std::span<const Value> values) const;
-    [[nodiscard]] std::uint8_t next_count() noexcept { return count_ = static_cast<std::uint8_t>((count_ + 1) & 0x0F); }
+    /// The count of a motion command that is sent now: neither the last one that was sent nor the one that the drive shows.
+    [[nodiscard]] std::uint8_t next_count(Instant now) noexcept;
     /// A default response has arrived.
     void seen(const Status& status, Turn& t);
-    void found() noexcept { count_ = 0; }
+    void found() noexcept { count_ = 0, shown_ = no_count, sent_at_ = Instant{}; }
     void has_target(bool target) noexcept { to_target_ = target, wanted_ = target ? Course::to_target : Course::unknown; }
     /// The motion that is being sent is a move to the end of the number range: it runs until the next order.
     void endless() noexcept { wanted_ = Course::endless; }
@@ -71,7 +72,10 @@ public:
     [[nodiscard]] bool to_target() const noexcept { return to_target_; }
 
 private:
-    std::uint8_t count_ = 0;                                      ///< of the last motion command, as the drive shows it in state 8
+    static constexpr std::uint8_t no_count = 0xFF;
+    std::uint8_t count_ = 0;                                      ///< of the last motion command: as it was sent, later as it is shown
+    std::uint8_t shown_ = no_count;                               ///< by the drive, in state 8
+    Instant sent_at_{};                                           ///< of the last motion command
     bool fresh_ = false;                                          ///< accepted, and not yet seen by a poll
     bool to_target_ = false;                                      ///< the last motion has a target
     Course course_ = Course::unknown, wanted_ = Course::unknown;  ///< of the accepted motion; of the one that is being sent

@@ -149,8 +149,8 @@ void Feedback::publish(Turn& t) {
                      : standing_by            ? std::optional<std::uint16_t>(0x0023)
                                               : std::nullopt;
     judge_motion();
-    fb_.target_reached =
-        drive_.motion.to_target() && !drive_.motion.fresh() && !fb_.moving && s.bit(bit::in_target) && main == state::enabled;
+    fb_.target_reached = drive_.motion.to_target() && !drive_.motion.fresh() && !drive_.jobs.is(drive_.motion) && !fb_.moving &&
+                         s.in_target() && main == state::enabled;
     fb_.native_status = std::uint32_t{s.state_var} << 16 | s.status;
     fb_.at = t.now;
     drive_.demand.at_status(fb_, t);
@@ -164,8 +164,7 @@ void Feedback::judge_motion() {
     const bool own_motion = (main == state::homing || main == 10 || main == state::initial || main == 15) && sub != finished;
     const bool braking = main == state::aborting || main == state::freezing || main == state::quick_stop;
     const bool shifts = track_.size() > 1 && std::abs(std::int64_t{track_.back().second} - (track_.end() - 2)->second) > 10;
-    fb_.moving =
-        main >= state::enabled && (s.bit(bit::moving) || own_motion || ((main == 16 || main == 17) && sub == 1) || (braking && shifts));
+    fb_.moving = main >= state::enabled && (s.moving() || own_motion || ((main == 16 || main == 17) && sub == 1) || (braking && shifts));
     fb_.position = s.position;
     fb_.velocity = 0;
     if (fb_.moving && track_.size() > 1) {

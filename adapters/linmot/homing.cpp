@@ -25,6 +25,7 @@ std::optional<Telegram> Homing::request(Turn& t) {
         feedback.homing_begins();
         drive_.motion.no_target();
         drive_.demand.forget();
+        job().limit = t.now + shown_within;
         return drive_.control.write(static_cast<std::uint16_t>(cw_on | cw_home));
     }
     if (feedback.status().state() == state::homing) {
@@ -37,7 +38,7 @@ std::optional<Telegram> Homing::request(Turn& t) {
         return refused(Reason::drive_refused, fmt::format("drive {}: {}", drive_.title(), feedback.error_text()), t,
                        feedback.status().sub_state());
     }
-    if (job().step > 6) {
+    if (job().step > 6 && t.now >= job().limit) {
         feedback.homing_failed();
         (void)drive_.control.write(cw_on);
         fail(Reason::drive_refused, fmt::format("drive {} does not begin to home; it stays in {}", drive_.title(), feedback.state_text()),
@@ -45,6 +46,7 @@ std::optional<Telegram> Homing::request(Turn& t) {
         return std::nullopt;
     }
     job().not_before = t.now + std::chrono::milliseconds(10);
+    if (job().step % 6 == 0) return drive_.control.write(static_cast<std::uint16_t>(cw_on | cw_home));
     return linmot::request(drive_.id(), Main::response, 1);
 }
 

@@ -9,8 +9,8 @@
 
 namespace axisgate::linmot {
 namespace {
-constexpr Duration look_again = std::chrono::milliseconds(5);
-constexpr int looks = 6;  ///< reads of the count of a motion command until it counts as not executed
+constexpr Duration look_at_count = std::chrono::milliseconds(5);
+constexpr int looks = 6;  ///< least number of reads of the count of a motion command until it counts as not executed
 /// Increments per second to counts of 1e-6 m/s (1 = 10), per second squared to 1e-5 m/s2 (1 = 100); never 0.
 std::int64_t counts(std::int64_t value, std::int64_t per) { return std::max<std::int64_t>((value + per / 2) / per, 1); }
 }  // namespace
@@ -90,21 +90,36 @@ Telegram MotionOrders::telegram(const Motion& motion, std::uint8_t count, std::s
 void MotionOrders::seen(const Status& s, Turn& t) {
     fresh_ = false;
     // The command was not answered, but the drive has accepted it; the client was informed that it failed.
-    if (orphan_ && s.state() == state::enabled && (s.sub_state() & 0x0F) == *orphan_ && s.bit(bit::moving)) {
+    if (orphan_ && s.state() == state::enabled && (s.sub_state() & 0x0F) == *orphan_ && s.moving()) {
         orphan_.reset();
         drive_.notice(Severity::warning, "motion", 0,
                       fmt::format("drive {} has begun a motion that was answered as failed: it is halted", drive_.title()), t);
         drive_.stops.take_back(Halt{}, t);
     }
-    if (s.state() == state::enabled && !drive_.jobs.is(*this)) count_ = s.sub_state() & 0x0F;
+    if (s.state() != state::enabled) return;
+    shown_ = s.sub_state() & 0x0F;
+    // A count that was sent a moment ago is not shown yet by a drive whose response is late.
+    if (!drive_.jobs.is(*this) && t.now >= sent_at_ + shown_within) count_ = shown_;
 }
 
-/// Sent once, with a new count; then the count is read.
-std::optional<Telegram> MotionOrders::request(Turn&) {
-    if (job().step > 0) return linmot::request(drive_.id(), Main::response, 1);
-    job().step = 1;
-    orphan_.reset();
-    job().count = next_count();
+std::uint8_t MotionOrders::next_count(Instant now) noexcept {
+    sent_at_ = now;
+    const auto after = [](std::uint8_t count) { return static_cast<std::uint8_t>((count + 1) & 0x0F); };
+    count_ = after(count_);
+    return count_ == shown_ ? count_ = after(count_) : count_;
+}
+
+/// Sent with a new count, which is read then. A response that nobody has asked for may have been taken for the answer to a command that was
+/// lost, so the command is sent again from time to time: with the same count it is not executed twice.
+std::optional<Telegram> MotionOrders::request(Turn& t) {
+    const bool again = job().step % looks == looks / 2 && drive_.feedback.status().state() == state::enabled;
+    if (job().step > 0 && !again) return linmot::request(drive_.id(), Main::response, 1);
+    if (job().step == 0) {
+        job().step = 1;
+        orphan_.reset();
+        job().count = next_count(t.now);
+        job().limit = t.now + shown_within;
+    }
     std::vector<std::uint8_t> bytes = job().motion;
     bytes[0] = static_cast<std::uint8_t>((bytes[0] & 0xF0) | job().count);
     Telegram telegram = linmot::request(drive_.id(), Main::motion, 0);
@@ -124,8 +139,9 @@ void MotionOrders::answered(const Telegram&, Turn& t) {
                       s.sub_state());
     }
     // Most errors stop the motor first: the state after that shows which error it was.
-    if (s.state() == state::quick_stop && ++j.step <= looks) {
-        j.not_before = t.now + look_again;
+    const bool looks_on = ++j.step <= looks || t.now < j.limit;
+    if (s.state() == state::quick_stop && looks_on) {
+        j.not_before = t.now + look_at_count;
         return;
     }
     const bool executed = s.state() == state::enabled ? (s.sub_state() & 0x0F) == j.count : !was_enabled;
@@ -135,8 +151,8 @@ void MotionOrders::answered(const Telegram&, Turn& t) {
                     fmt::format("drive {} went to {} while {} was sent", drive_.title(), feedback.state_text(), j.text), t);
     }
     if (!executed) {
-        if (++j.step <= looks) {
-            j.not_before = t.now + look_again;
+        if (looks_on) {
+            j.not_before = t.now + look_at_count;
             return;
         }
         no_target();

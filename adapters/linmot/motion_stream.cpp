@@ -56,7 +56,7 @@ void PositionStream::send(Turn& t) {
     MotionOrders& motion = drive_.motion;
     const Motions& motions = drive_.bus.motions;
     if (state_.ending)
-        return drive_.exchanges.send({motion.telegram(*motions.named("03Fxh"), motion.next_count(), {}), Purpose::stream}, t);
+        return drive_.exchanges.send({motion.telegram(*motions.named("03Fxh"), motion.next_count(t.now), {}), Purpose::stream}, t);
     const SetPoint& p = *state_.newest;
     const auto rate = [](const std::optional<std::int64_t>& given, const std::optional<std::uint32_t>& own, double per, double fallback) {
         return given ? static_cast<double>(*given) : own && *own > 0 ? *own * per : fallback;
@@ -69,7 +69,7 @@ void PositionStream::send(Turn& t) {
         Value{static_cast<std::int64_t>(std::clamp(std::round(place), double{INT32_MIN}, double{INT32_MAX}))},
         Value{static_cast<std::int64_t>(std::clamp(std::round(state_.lead.velocity() / 10), double{INT32_MIN}, double{INT32_MAX}))}};
     state_.next = std::max(state_.next + state_.period, t.now);
-    drive_.exchanges.send({motion.telegram(*motions.named("031xh"), motion.next_count(), values), Purpose::stream}, t);
+    drive_.exchanges.send({motion.telegram(*motions.named("031xh"), motion.next_count(t.now), values), Purpose::stream}, t);
 }
 
 void PositionStream::answered(Turn& t) {

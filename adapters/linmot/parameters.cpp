@@ -110,7 +110,7 @@ std::optional<Telegram> Parameters::request(Turn& t) {
     // RAM: written by a motion command, then read; if the command was not executed, once more with another count.
     if (job().step % 2 == 1) return request16(id, Main::ram, 0, p.upid);
     const std::vector<Value> values{std::int64_t{p.upid}, std::int64_t{raw}};
-    job().count = drive_.motion.next_count();
+    job().count = drive_.motion.next_count(t.now);
     return drive_.motion.telegram(*drive_.bus.motions.named("002xh"), job().count, values);
 }
 

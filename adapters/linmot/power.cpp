@@ -6,8 +6,10 @@
 
 namespace axisgate::linmot {
 namespace {
-constexpr Duration enable_limit = std::chrono::seconds(5);
-constexpr Duration look_again_for_power = std::chrono::milliseconds(10);
+constexpr Duration enable_limit = std::chrono::seconds(5);  ///< of a drive that answers at once
+constexpr int enable_exchanges = 8;                         ///< that may take as long as the line permits
+constexpr int looks_per_word = 6;                           ///< then the control word is written again, which has no effect in the drive
+constexpr Duration look_again_for_state = std::chrono::milliseconds(10);
 }  // namespace
 
 Telegram ControlWord::write(std::uint16_t word) {
@@ -29,7 +31,7 @@ std::optional<Telegram> Power::request(Turn& t) {
     Feedback& feedback = drive_.feedback;
     ControlWord& control = drive_.control;
     const Status& s = feedback.status();
-    if (job().limit == never) job().limit = t.now + enable_limit;
+    if (job().limit == never) job().limit = t.now + enable_limit + enable_exchanges * drive_.bus.timing.reply_timeout;
     if (feedback.in_error())
         return refused(Reason::wrong_state, fmt::format("drive {} is in {}", drive_.title(), feedback.error_text()), t, s.sub_state());
     if (feedback.error_kept())
@@ -45,7 +47,7 @@ std::optional<Telegram> Power::request(Turn& t) {
              t);
         return std::nullopt;
     }
-    job().not_before = t.now + look_again_for_power;
+    job().not_before = t.now + look_again_for_state;
     switch (s.state()) {
         case state::not_ready:
         case state::disabled:
@@ -67,7 +69,8 @@ std::optional<Telegram> Power::request(Turn& t) {
                 accept(feedback.state_text(), t);
                 return std::nullopt;
             }
-            if (control.word() != cw_on) return control.write(cw_on);
+            // A response that nobody has asked for may have been taken for the answer to a control word that was lost.
+            if (control.word() != cw_on || ++job().step % looks_per_word == 0) return control.write(cw_on);
             break;
     }
     return linmot::request(drive_.id(), Main::response, 1);
@@ -100,6 +103,11 @@ std::optional<Telegram> FaultReset::request(Turn& t) {
         case 3:
             return control.write(cw_off);
         default:
+            if (job().limit == never) job().limit = t.now + shown_within;
+            if (feedback.in_error() && t.now < job().limit) {
+                job().not_before = t.now + look_again_for_state;
+                return linmot::request(drive_.id(), Main::response, 1);
+            }
             if (feedback.in_error())
                 return refused(Reason::drive_refused, fmt::format("drive {} is still in {}", drive_.title(), feedback.error_text()), t,
                                s.sub_state());

@@ -9,6 +9,9 @@
 #include "adapters/linmot/drive.hpp"
 
 namespace axisgate::linmot {
+namespace {
+constexpr std::string_view ram_is_silent = "; it does not answer reads of RAM values";
+}  // namespace
 
 void Start::probe(Turn& t) {
     if (!drive_.presence.probe_due(t.now)) return;
@@ -77,6 +80,7 @@ void Start::probed(const Request& asked, const Telegram& telegram, Turn& t) {
     }
     response_size_ = position ? size_without_position : size;
     not_ours_.clear();
+    asks_presence_ = ram_silent_ = false;
     drive_.presence.found();
     drive_.motion.found();
     drive_.feedback.learn(*status_in(asked.telegram, telegram), t);
@@ -88,21 +92,31 @@ void Start::probed(const Request& asked, const Telegram& telegram, Turn& t) {
 }
 
 void Start::read_next(Turn& t) {
+    if (asks_presence_) return drive_.exchanges.send({status_request(), Purpose::core}, t);
     drive_.exchanges.send({request16(drive_.id(), Main::ram, 0, Limits::upids[reading_.at()]), Purpose::core}, t);
 }
 
 /// The limits of predefined moves: the rates of a move without own rates.
 void Start::read(const Telegram& telegram, Turn& t) {
     if (const auto status = status_of(telegram, response_size_)) drive_.feedback.learn(*status, t);
+    if (std::exchange(asks_presence_, false)) {  // it answers, only not the reads of RAM values
+        ram_silent_ = true;
+        while (!reading_.done()) {
+        }
+        return ready(ram_is_silent, t);
+    }
     drive_.limits.at(reading_.at()) = telegram.u32(response_size_);
     if (reading_.done()) ready("", t);
 }
 
+/// Silence upon the first value is no silence of the drive yet: what it always answers is asked before the time-outs count as its loss.
 void Start::read_silent(Turn& t) {
+    if (asks_presence_) return;
     reading_.silent();
     if (!reading_.given_up()) return;
     drive_.limits.at(reading_.at()).reset();
-    if (reading_.done()) ready("; it does not answer reads of RAM values", t);
+    asks_presence_ = reading_.at() == 0;
+    if (!asks_presence_ && reading_.done()) ready(ram_is_silent, t);
 }
 
 /// The RAM has its power-on values after each restart of the drive, which leads to a start here, too.
@@ -140,7 +154,7 @@ void Start::limit_set(std::string fault, Turn& t) {
 }
 
 void Start::read_again() {
-    if (!drive_.presence.is(drive::Presence::Phase::ready) || drive_.axis() == no_axis) return;
+    if (!drive_.presence.is(drive::Presence::Phase::ready) || drive_.axis() == no_axis || ram_silent_) return;
     drive_.limits = {};
     reading_.begin(std::size(Limits::upids), std::size(Limits::upids));
 }

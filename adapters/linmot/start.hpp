@@ -49,6 +49,8 @@ private:
     [[nodiscard]] std::string reconfigured(std::size_t size, std::string_view why) const;
 
     drive::Reading reading_;
+    bool asks_presence_ = false;   ///< the drive did not answer the first read of a RAM value: does it answer at all?
+    bool ram_silent_ = false;      ///< it answers other requests, and no read of a RAM value
     std::size_t limits_open_ = 0;  ///< outstanding writes
     bool limits_untold_ = false;
     std::string not_ours_;  ///< why a drive that answers cannot be used

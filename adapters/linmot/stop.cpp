@@ -1,4 +1,5 @@
-// A stop that the drive does not follow is sent four times and then reported as failed.
+// A stop that the drive does not show is sent again until the drive has had the time to show it, at least four times; then it is reported
+// as failed.
 #include "adapters/linmot/stop.hpp"
 
 #include <fmt/core.h>
@@ -7,6 +8,10 @@
 #include "adapters/linmot/native.hpp"
 
 namespace axisgate::linmot {
+namespace {
+constexpr int at_once = 4;  ///< transmissions that follow one another without a pause
+constexpr Duration look_again = std::chrono::milliseconds(5);
+}  // namespace
 
 void Stops::add(const Command& command, Turn& t) {
     const bool off = !std::holds_alternative<Halt>(command.body);
@@ -62,7 +67,7 @@ std::optional<Telegram> Stops::request(Turn& t) {
             return control.write(cw_on);  // halt: a search or another motion of the drive ends when its control bit is reset
         } else if (!feedback.known() || main == state::enabled) {
             MotionOrders& motion = drive_.motion;
-            if (s->step == 0) s->count = motion.next_count();
+            if (s->step == 0) s->count = motion.next_count(t.now);
             s->step = 1;
             const std::vector<Value> values{std::int64_t{drive_.demand.deceleration()}};
             return motion.telegram(*drive_.bus.motions.named("017xh"), s->count, values);
@@ -85,7 +90,10 @@ void Stops::answered(Turn& t) {
     else if (main == state::enabled && s->step == 1)
         done = (status.sub_state() & 0x0F) == s->count;
     if (!done) {
-        if (++s->tries < 4) return;  // sent again at once: the same control word, the same count
+        if (s->limit == never) s->limit = t.now + shown_within;
+        if (++s->tries < at_once) return;  // sent again at once: the same control word, the same count
+        s->not_before = t.now + look_again;
+        if (t.now < s->limit) return;
         return over(Outcome::failed, Reason::drive_refused,
                     fmt::format("drive {} stays in {} after {}; its control word may be held by inputs, parameters or another tool",
                                 drive_.title(), drive_.feedback.state_text(), name_of(s->command.body)),
@@ -98,7 +106,7 @@ void Stops::answered(Turn& t) {
 
 void Stops::silent(Turn& t) {
     Stop* s = lane_.first();
-    if (s && ++s->tries >= 2)
+    if (s && ++s->silences >= 2)
         over(Outcome::failed, Reason::no_answer,
              fmt::format("drive {} does not answer; whether it has stopped is not known", drive_.title()), t);
 }

@@ -13,7 +13,9 @@ namespace axisgate::linmot {
 struct Stop {
     Command command;
     int step = 0;
-    int tries = 0;
+    int tries = 0, silences = 0;  ///< answers that do not show its effect; exchanges without an answer
+    Instant limit = never;        ///< of the time in which the drive may show its effect
+    Instant not_before{};         ///< of its next telegram
     std::uint8_t count = 0;
 };
 
@@ -31,6 +33,8 @@ public:
     void forget() noexcept { lane_.clear(); }
 
     [[nodiscard]] bool empty() const noexcept { return lane_.empty(); }
+    /// When the next telegram of a stop is due; `never`: no stop waits.
+    [[nodiscard]] Instant wish() const noexcept { return empty() ? never : lane_.first()->not_before; }
     [[nodiscard]] Ticket order() const noexcept { return empty() ? no_ticket : lane_.first()->command.ticket; }
     /// No stop waits except a halt, before which the stream must end.
     [[nodiscard]] bool empty_or_halt() const noexcept { return empty() || std::holds_alternative<Halt>(lane_.first()->command.body); }

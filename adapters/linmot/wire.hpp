@@ -102,6 +102,9 @@ struct Status {
     [[nodiscard]] std::uint8_t state() const noexcept { return static_cast<std::uint8_t>(state_var >> 8); }
     [[nodiscard]] std::uint8_t sub_state() const noexcept { return static_cast<std::uint8_t>(state_var); }
     [[nodiscard]] bool bit(int n) const noexcept { return (status >> n & 1) != 0; }
+    /// In state 8 from StateVar, where they belong to the count beside them; the status word may be older [L201-206].
+    [[nodiscard]] bool moving() const noexcept { return state() == 8 ? (sub_state() & 0x20) != 0 : bit(13); }
+    [[nodiscard]] bool in_target() const noexcept { return state() == 8 ? (sub_state() & 0x40) != 0 : bit(10); }
 };
 inline constexpr std::size_t default_size = 9;  ///< data of the default response
 inline constexpr std::size_t ram_size = 13;     ///< the same, followed by the value of a RAM read

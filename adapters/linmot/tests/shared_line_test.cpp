@@ -1,0 +1,145 @@
+// Lines on which others speak, too, and drives that do not answer everything: the drive is found and served, and nothing of the others is
+// taken for its answer.
+#include "adapters/linmot/tests/line_bench.hpp"
+
+namespace axisgate::linmot::test {
+namespace {
+constexpr std::uint32_t shared_rate = 38400;
+const char* response_at_5 = "01 11 0C 02 00 00 00 37 04 C1 08 05 00 00 00 04";
+const char* response_at_9 = "01 11 0C 02 00 00 00 37 04 C1 08 09 00 00 00 04";
+
+Move quick_move(std::int64_t target) {
+    Move m;
+    m.target = target;
+    m.velocity = 1'000'000;
+    m.acceleration = m.deceleration = 10'000'000;
+    return m;
+}
+
+/// An adapter without a drive: the test plays the line.
+struct AloneOnALine {
+    LineBench b{1, shared_rate};
+    LineAdapter adapter{page()};
+    Instant now = b.now;
+    Out out;
+    AloneOnALine() {
+        adapter.configure(b.setup, now, out);
+        adapter.on_line(true, now, out);
+    }
+    /// Returns the number of requests that were sent.
+    std::size_t hear(const char* hex, Duration later) {
+        now += later;
+        out.frames.clear();
+        adapter.on_frame(Frame::run(bytes_of(hex)), now, out);
+        return out.frames.size();
+    }
+    /// The bytes that are sent until `later`.
+    std::size_t wait(Duration later) {
+        out.frames.clear();
+        for (const Instant end = now + later; adapter.deadline() <= end;) {
+            now = std::max(now, adapter.deadline());
+            adapter.on_deadline(now, out);
+        }
+        return out.frames.size();
+    }
+    [[nodiscard]] bool found() const { return !out.feedback.empty(); }
+};
+
+TEST(LinmotSharedLine, BytesThatOverlapARequestAreNoAnswer) {
+    AloneOnALine a;
+    (void)a.hear(response_at_5, 4ms);  // 16 bytes take 4.2 ms, and the request 1.8 ms
+    EXPECT_FALSE(a.found());
+    (void)a.hear(response_at_9, 10ms);
+    ASSERT_TRUE(a.found());
+    EXPECT_EQ(a.out.feedback.back().value.position, 9);
+}
+
+TEST(LinmotSharedLine, AnAnswerBeginsWithTheEndOfItsRequestAtTheEarliest) {
+    AloneOnALine a;
+    (void)a.hear(response_at_9, 5990us);  // 7 and 16 bytes of 260 us
+    EXPECT_TRUE(a.found());
+}
+
+TEST(LinmotSharedLine, RequestsWaitForSilenceWhereOthersSpeak) {
+    AloneOnALine quiet;
+    EXPECT_EQ(quiet.hear(response_at_9, 10ms), 1u) << "the next request follows at once";
+    AloneOnALine a;
+    (void)a.hear("01 91 03 02 01 00 04", 8ms);  // another master
+    (void)a.hear("01 91 0C 02 00 00 00 37 04 C1 08 05 00 00 00 04", 5ms);
+    EXPECT_EQ(a.hear(response_at_9, 5ms), 0u);
+    EXPECT_EQ(a.wait(14ms), 0u);
+    EXPECT_EQ(a.wait(16ms), 1u);
+    // A line that is never silent does not silence the gateway.
+    AloneOnALine never_silent;
+    std::size_t sent = never_silent.hear("01 91 03 02 01 00 04", 8ms) + never_silent.hear(response_at_9, 5ms);
+    for (int i = 0; i < 12 && sent == 0; ++i)
+        sent += never_silent.hear("01 91 03 02 01 00 04", 10ms);
+    EXPECT_EQ(sent, 1u);
+}
+
+TEST(LinmotSharedLine, TheOwnEchoIsNobodyElse) {
+    AloneOnALine a;
+    (void)a.hear("01 11 03 02 01 00 04", 4ms);  // as the request was sent
+    EXPECT_EQ(a.hear(response_at_9, 6ms), 1u);
+}
+
+TEST(LinmotSharedLine, ADriveBesideAnotherMasterIsFoundAndServed) {
+    for (const char* period : {"70", "100", "500"}) {
+        SCOPED_TRACE(period);
+        LineBench b(1, shared_rate, {{"foreign_ms", period}, {"unsolicited_ms", "900"}, {"first_count", "15"}});
+        b.run(3s);
+        ASSERT_TRUE(b.links[DriveId{0}].online) << b.links[DriveId{0}].text;
+        ASSERT_TRUE(b.enable());
+        for (int i = 0; i < 30; ++i) {
+            const Result r = b.ask(quick_move(i % 2 == 0 ? 100'000 : 0));
+            ASSERT_TRUE(good(r)) << i << ": " << r.text;
+            b.run(997ms);
+            EXPECT_TRUE(b.links[DriveId{0}].online) << i;
+            EXPECT_EQ(b.axis().position, i % 2 == 0 ? 100'000 : 0) << i;
+            EXPECT_FALSE(b.axis().fault) << i;
+        }
+        EXPECT_GT(b.bus->counters().collisions, 0u) << "without any the test shows nothing";
+        EXPECT_EQ(std::ranges::count(b.notices, std::string("alarm"), &Notice::kind), 0);
+    }
+}
+
+TEST(LinmotSharedLine, ADriveThatNeedsAPauseBetweenRequestsIsServed) {
+    for (const char* content : {"0", "3"}) {
+        SCOPED_TRACE(content);
+        LineBench b(1, shared_rate,
+                    {{"request_pause_ms", "45"}, {"response_content", content}, {"unsolicited_ms", "900"}, {"status_late_ms", "17"}});
+        b.run(5s);
+        ASSERT_TRUE(b.links[DriveId{0}].online) << b.links[DriveId{0}].text;
+        ASSERT_TRUE(b.enable());
+        for (int i = 0; i < 10; ++i) {
+            const Result r = b.ask(quick_move(i % 2 == 0 ? 100'000 : 0));
+            ASSERT_TRUE(good(r)) << i << ": " << r.text;
+            b.run(1s);
+            EXPECT_EQ(b.axis().position, i % 2 == 0 ? 100'000 : 0) << i;
+        }
+    }
+}
+
+TEST(LinmotSharedLine, ADriveThatReadsNoRamIsServedWithoutItsRates) {
+    LineBench b(1, 115200, {{"ram_access", "0"}});
+    b.run(5s);
+    ASSERT_TRUE(b.links[DriveId{0}].online) << b.links[DriveId{0}].text;
+    EXPECT_NE(b.links[DriveId{0}].text.find("does not answer reads of RAM values"), std::string::npos) << b.links[DriveId{0}].text;
+    ASSERT_TRUE(b.enable());
+    EXPECT_TRUE(good(b.ask(quick_move(50'000))));
+    b.run(1s);
+    EXPECT_EQ(b.axis().position, 50'000);
+    Move without;
+    without.target = 0;
+    EXPECT_NE(b.ask(without).text.find("give velocity"), std::string::npos);
+    for (int i = 0; i < 100; ++i) {
+        b.run(100ms);
+        ASSERT_TRUE(b.links[DriveId{0}].online) << i;
+    }
+    b.hand("power", Value{false});
+    b.run(3s);
+    EXPECT_FALSE(b.links[DriveId{0}].online) << "a drive that is away is lost all the same";
+}
+
+}  // namespace
+}  // namespace axisgate::linmot::test

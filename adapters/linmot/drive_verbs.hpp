@@ -108,10 +108,16 @@ public:
     void release(Turn& t);
     void release_lost() noexcept { release_ = true; }
     void no_release() noexcept { release_ = false; }
-    void forget() noexcept { release_ = searching_ = false; }
+    void forget() noexcept {
+        release_ = searching_ = false;
+        ended_at_.reset();
+    }
+    /// The search has ended, and the drive still shows the state of it: orders are refused until it shows state 8.
+    [[nodiscard]] bool settles(Instant now) const noexcept { return ended_at_ && now - *ended_at_ < shown_within; }
 
 private:
     bool release_ = false, searching_ = false;
+    std::optional<Instant> ended_at_;  ///< when a search of this gateway has shown its end, until the drive has left its state
 };
 
 /// parameters.cpp: parameters of the catalogue.

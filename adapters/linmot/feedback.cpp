@@ -31,7 +31,8 @@ void Feedback::sample(std::string_view id, Value value, Turn& t) {
 }
 
 void Feedback::forget() noexcept {
-    known_ = operated_ = placed_ = false;
+    known_ = operated_ = placed_ = power_shown_ = false;
+    asked_at_.reset();
     track_.clear();
 }
 
@@ -96,6 +97,19 @@ void Feedback::watch_power(Turn& t) {
         fmt::format("drive {} has left operation by itself ({}): enable it again when that is over", drive_.title(), state_text()), t);
 }
 
+/// Status bit 4 shows bit 1 of the effective control word, to which X4.12 (SVE) is always mapped [L4400]. A response may be older than the
+/// control word that it answers, so a bit 4 that has not been set since bit 1 was requested shows nothing yet.
+bool Feedback::power_taken(Instant now) noexcept {
+    if ((drive_.control.word() & 2) == 0) {
+        asked_at_.reset();
+        power_shown_ = false;
+        return false;
+    }
+    if (!asked_at_) asked_at_ = now;
+    power_shown_ = power_shown_ || status_.bit(4);
+    return !status_.bit(4) && status_.state() != state::not_ready && (power_shown_ || now - *asked_at_ >= shown_within);
+}
+
 /// A halt decelerates with the rate of the last move (demand.hpp), a move without a rate with that of the drive: the lower one is shown.
 DriveRates Feedback::rates() const noexcept {
     const Limits& own = drive_.limits;
@@ -134,8 +148,7 @@ void Feedback::publish(Turn& t) {
     fb_.fault = in_error() || kept_;
     fb_.rates = rates();
     fb_.course = drive_.stream.on() ? Course::endless : drive_.motion.course();
-    // Status bit 4 shows bit 1 of the effective control word, to which X4.12 (SVE) is always mapped [L4400].
-    fb_.safe_stop = (drive_.control.word() & 2) != 0 && !s.bit(4) && main != state::not_ready;
+    fb_.safe_stop = power_taken(t.now);
     fb_.warning = s.bit(bit::warning);
     fb_.referenced = s.bit(bit::homed);
     fb_.error_code = in_error() ? sub : std::uint16_t{0};
@@ -148,7 +161,7 @@ void Feedback::publish(Turn& t) {
                      : main >= state::enabled ? std::optional<std::uint16_t>(0x0027)
                      : standing_by            ? std::optional<std::uint16_t>(0x0023)
                                               : std::nullopt;
-    judge_motion();
+    judge_motion(t.now);
     fb_.target_reached = drive_.motion.to_target() && !drive_.motion.fresh() && !drive_.jobs.is(drive_.motion) && !fb_.moving &&
                          s.in_target() && main == state::enabled;
     fb_.native_status = std::uint32_t{s.state_var} << 16 | s.status;
@@ -157,10 +170,10 @@ void Feedback::publish(Turn& t) {
     t.out.feedback.push_back({drive_.axis(), fb_});
 }
 
-void Feedback::judge_motion() {
+void Feedback::judge_motion(Instant now) {
     const Status& s = status_;
     const std::uint8_t main = s.state(), sub = s.sub_state();
-    fb_.homing = main == state::homing && sub != finished;
+    fb_.homing = main == state::homing && (sub != finished || drive_.homing.settles(now));
     const bool own_motion = (main == state::homing || main == 10 || main == state::initial || main == 15) && sub != finished;
     const bool braking = main == state::aborting || main == state::freezing || main == state::quick_stop;
     const bool shifts = track_.size() > 1 && std::abs(std::int64_t{track_.back().second} - (track_.end() - 2)->second) > 10;

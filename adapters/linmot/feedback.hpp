@@ -3,6 +3,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -39,9 +40,10 @@ private:
     void watch_errors(Turn& t);
     void watch_power(Turn& t);
     void keep_error() noexcept;
+    [[nodiscard]] bool power_taken(Instant now) noexcept;
     [[nodiscard]] DriveRates rates() const noexcept;
     void track(const Status& status, Instant now);
-    void judge_motion();
+    void judge_motion(Instant now);
     void sample(std::string_view id, Value value, Turn& t);
 
     bool known_ = false;
@@ -52,6 +54,8 @@ private:
     bool braked_ = false;                                 ///< it decelerates because of an error
     bool kept_ = false;                                   ///< that error has disappeared from the status without a reset
     bool operated_ = false;                               ///< it was enabled, and its control word was not withdrawn since
+    std::optional<Instant> asked_at_;                     ///< when bit 1 of the control word was requested
+    bool power_shown_ = false;                            ///< status bit 4 has been set since then
     std::deque<std::pair<Instant, std::int32_t>> track_;  ///< positions of the last 100 ms
 };
 

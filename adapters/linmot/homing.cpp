@@ -40,7 +40,7 @@ std::optional<Telegram> Homing::request(Turn& t) {
     }
     if (job().step > 6 && t.now >= job().limit) {
         feedback.homing_failed();
-        (void)drive_.control.write(cw_on);
+        release_ = true;  // a search that begins after this answer must not go on
         fail(Reason::drive_refused, fmt::format("drive {} does not begin to home; it stays in {}", drive_.title(), feedback.state_text()),
              t);
         return std::nullopt;
@@ -51,13 +51,15 @@ std::optional<Telegram> Homing::request(Turn& t) {
 }
 
 void Homing::watch(Turn& t) {
-    if ((drive_.control.word() & cw_home) == 0) return;
     Feedback& feedback = drive_.feedback;
     const Status& s = feedback.status();
+    if (s.state() != state::homing) ended_at_.reset();
+    if ((drive_.control.word() & cw_home) == 0) return;
     if (s.state() == state::homing) {
         searching_ = s.sub_state() != finished;
         if (searching_) return;
         release_ = true;
+        if (!ended_at_) ended_at_ = t.now;
         feedback.homing_attained();
         return drive_.demand.rest(s.position);
     }

@@ -18,12 +18,15 @@ public:
         busy_since_ = now;
     }
     /// `size` bytes have arrived, each of which takes `per_byte` (0: not known). Returns the number of leading ones that were on the line
-    /// while a request was still being sent: they are no answer, and on one pair of wires they are corrupted.
+    /// while a request was still being sent: on a shared line they are no answer, and on one pair of wires they are corrupted. A simulated
+    /// drive behind a pseudo terminal answers without the time on the wire; where nobody else speaks its bytes are taken.
     [[nodiscard]] std::size_t heard(Instant now, std::size_t size, Duration per_byte) noexcept {
         if (now - heard_at_ > silence) busy_since_ = now;
         heard_at_ = now;
         const Duration overlap = sends_until_ - (now - static_cast<std::int64_t>(size) * per_byte);
-        return per_byte <= Duration::zero() || overlap < per_byte ? 0 : std::min(static_cast<std::size_t>(overlap / per_byte), size);
+        return !shared(now) || per_byte <= Duration::zero() || overlap < per_byte
+                   ? 0
+                   : std::min(static_cast<std::size_t>(overlap / per_byte), size);
     }
     /// A telegram has arrived for which nobody here has asked.
     void strange(Instant now) noexcept { strange_at_ = now; }

@@ -39,7 +39,7 @@ describe('the rehearsal', () => {
   });
   it('keeps its rows when it is ended or the gateway does not answer', async () => {
     of.report.value = report('running', [row('1')]);
-    client.recipeRehearsal.mockRejectedValueOnce(new Problem('away', 'nobody answers', 0));
+    client.recipeRehearsal.mockRejectedValueOnce(new Problem('unreachable', 'nobody answers', 0));
     await of.look();
     expect(of.report.value?.specimens.length).toBe(1);
     client.cancelRehearsal.mockResolvedValueOnce(report('cancelling', [row('1')]));

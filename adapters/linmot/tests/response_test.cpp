@@ -75,8 +75,7 @@ TEST(LinmotResponse, AStateOfSomeTimeAgoIsNotTakenForARefusal) {
 /// The drive waits in state 1 and shows bit 1 of the control word late: no safe input has taken its power.
 TEST(LinmotResponse, PowerThatIsNotShownYetWasNotTakenAway) {
     LineBench b(1, 115200, {{"status_late_ms", "300"}});
-    constexpr std::uint8_t unlock[] = {0x01, 0x11, 0x05, 0x02, 0x00, 0x01, 0x00, 0x00, 0x04};
-    (void)b.bus->send(Frame::run(unlock), Priority::command, b.now);
+    b.drive().write_control_word(0, b.now);  // by another tool
     b.run(3s);
     ASSERT_EQ(b.drive().state(), 1);
     const Ticket t = b.submit(Enable{});

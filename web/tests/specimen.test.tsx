@@ -17,7 +17,7 @@ it('is shown in words and goes through the draft of the site', async () => {
   await p.see('[data-field=specimen-words]', 'reply_ms = 200');
   expect(p.root.querySelector('[data-field=specimen-words]')?.getAttribute('lang')).toBe('en');
   await p.press('Save to draft');
-  await p.see('.section:last-child form.card', 'Check and apply the draft');
+  await p.see('.section:nth-last-child(2) form.card', 'Check and apply the draft');
   expect((p.field('The simulated drive is specimen') as HTMLInputElement).value).toBe('slow');
   expect(JSON.stringify(door.configuration.site)).toBe(before);
   p.go('/site');
@@ -28,6 +28,6 @@ it('is refused by the words of the gateway', async () => {
   p = await openPage('/axes/feeder/simulation', { door });
   await soon(() => p.field('The simulated drive is specimen'));
   p.type(p.field('The simulated drive is specimen'), 'fast');
-  await p.see('.section:last-child form.card', 'write a seed from 0');
+  await p.see('.section:nth-last-child(2) form.card', 'write a seed from 0');
   expect((p.button('Save to draft') as HTMLButtonElement).disabled).toBe(true);
 });

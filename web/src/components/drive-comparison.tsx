@@ -54,7 +54,9 @@ function Rows({ report }: { report: DriveComparison }) {
       {late.length > 0 && (
         <ul class="where" data-field="compared-late" aria-label={t('Answers outside the range of reply times')} {...gatewayText}>
           {late.slice(0, 20).map((d, i) => (
-            <li key={i}>{`${d.reply_ms} ms (${d.least_ms}–${d.most_ms} ms): ${d.request ?? ''}`}</li>
+            <li key={i}>
+              {d.request} <b>{d.reply_ms}</b> {t('{from} to {to} {unit}.', { from: d.least_ms, to: d.most_ms, unit: 'ms' })}
+            </li>
           ))}
         </ul>
       )}
@@ -86,7 +88,7 @@ export function DriveCompare({ axis }: { axis: string }) {
   }, [door]);
   const summary = (r: DriveComparison) => r.fault ?? t('{read} values read, {differences} differences, specimen {specimen}', { read: r.read, differences: r.differences, specimen: r.specimen });
   const compare = async () => {
-    reported.value = { tone: 'busy', text: t('Reading the drive …') };
+    reported.value = { tone: 'busy', text: t('Checking…') };
     try {
       const r = await door.compare((done, of) => (reported.value = { tone: 'busy', text: t('Reading the drive: {done} of {of} …', { done, of }) }));
       report.value = r;
@@ -96,7 +98,7 @@ export function DriveCompare({ axis }: { axis: string }) {
     }
   };
   const adopt = async () => {
-    reported.value = { tone: 'busy', text: t('The twin adopts the values …') };
+    reported.value = { tone: 'busy', text: t('Checking…') };
     try {
       const a = await door.adopt();
       reported.value = { tone: 'good', text: t('The twin starts as this drive when the drive is away; {n} values were adopted.', { n: a.adopted.length }) };
@@ -106,7 +108,7 @@ export function DriveCompare({ axis }: { axis: string }) {
   };
   return (
     <div class="card form" data-field="drive-comparison">
-      <p class="where">{t('The real drive is asked twice for everything that can be read without an effect, and compared with its twin. Nothing is written to the drive, and nothing moves.')}</p>
+      <p class="where">{t('A comparison reads the drive twice and writes nothing. Nothing moves.')}</p>
       <div class="form-foot">
         <button type="button" class="button" {...no} disabled={Boolean(no.disabled) || busy} onClick={() => void compare()}>
           {t('Compare with the twin')}

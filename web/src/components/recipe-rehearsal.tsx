@@ -46,7 +46,7 @@ export function RecipeRehearsalPart({ name, document: d, run, saved }: { name: s
     <Section title={t('Rehearsal against specimens')} help="specimens" fold={running ? false : (r?.total ?? 0)}>
       <div class="card form rehearsal recipe-rehearsal">
         <p class="where">
-          {t('Two drives of one type differ in what their manual leaves open. A rehearsal runs the saved recipe against many of them, each in a gateway of its own and in virtual time. No machine moves.')}
+          {t('A rehearsal runs the saved recipe against many simulated drives, in virtual time. No machine moves.')}
         </p>
         <Why need="operator" what={t('Rehearsing')} />
         <div class="form-foot">

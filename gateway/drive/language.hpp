@@ -56,8 +56,8 @@ protected:
     [[nodiscard]] virtual int learn(const Message& answer) = 0;
     /// The request for a Halt, QuickStop or Disable.
     [[nodiscard]] virtual Message stop(const Command& command) const = 0;
-    /// Adds the steps of a command. Dialogue itself answers an enable only when a state shows the power. A Move without speed or ramps keeps those that are set in the drive. Returns an empty text, or why the
-    /// command is refused.
+    /// Adds the steps of a command. Dialogue itself answers an enable only when a state shows the power. A Move without speed or ramps
+    /// keeps those that are set in the drive. Returns an empty text, or why the command is refused.
     [[nodiscard]] virtual std::string plan(Job& job, Reason& reason) const = 0;
     /// A step was successful. The language may add further steps.
     virtual void stepped(Job&, const Message& /*answer*/) {}

@@ -14,19 +14,21 @@
 
 namespace axisgate {
 namespace json = boost::json;
+
+/// The drive of an axis in the site in force.
+struct ComparedDrive {
+    const DriveSpec* spec = nullptr;
+    DriveId id = no_drive;
+    LineId line = no_line;
+};
+
 namespace {
 using Refused = ServiceRefusal::Why;
 
 const std::string comparison_kind = "comparison";
 
-/// The drive of an axis in the site in force.
-struct AxisDrive {
-    const DriveSpec* spec = nullptr;
-    DriveId id = no_drive;
-    LineId line = no_line;
-};
-AxisDrive drive_of(const AxisPlace& axis) {
-    AxisDrive out;
+ComparedDrive drive_of(const AxisPlace& axis) {
+    ComparedDrive out;
     const Site& site = axis.site->site;
     for (std::size_t i = 0; i < site.drives.size() && i < axis.site->drive_ids.size(); ++i)
         if (site.drives[i].name == axis.spec().drive) out.spec = &site.drives[i], out.id = axis.site->drive_ids[i];
@@ -43,7 +45,7 @@ std::string text_member(const json::object& o, std::string_view member) {
 
 struct DriveComparisons::Run {
     AxisPlace axis;
-    AxisDrive drive;
+    ComparedDrive drive;
     Origin origin;
     std::uint64_t since = 0;  ///< of the line's trace
     DriveComparisonInput input;
@@ -64,7 +66,7 @@ void DriveComparisons::note(std::string text, const std::string& axis, const Ori
 void DriveComparisons::compare(const std::string& axis, const Origin& origin, std::function<void(Refusable<json::object>)> then) const {
     const auto place = find_axis(ports_.get<SitePort>(), axis);
     if (!place) return then(no_such("axis", axis));
-    const AxisDrive drive = drive_of(*place);
+    const ComparedDrive drive = drive_of(*place);
     if (!drive.spec || !place->catalogue) return then(ServiceRefusal{Refused::conflict, fmt::format("axis {} has no drive", axis), axis});
     const DriveStatus status = ports_.get<DrivePort>().drive_status(drive.id);
     if (status.simulated)
@@ -139,7 +141,7 @@ void DriveComparisons::adopt(const std::string& axis, const Origin& origin, std:
     auto shown = report(axis);
     if (std::holds_alternative<ServiceRefusal>(shown)) return then(std::move(shown));
     const auto place = find_axis(ports_.get<SitePort>(), axis);
-    const AxisDrive drive = drive_of(*place);
+    const ComparedDrive drive = drive_of(*place);
     auto& o = std::get<json::object>(shown);
     if (!drive.spec || drive.spec->name != text_member(o, "drive") || drive.spec->address != text_member(o, "address") ||
         place->family != text_member(o, "family"))

@@ -1,6 +1,6 @@
-// A gateway by itself, with the ports that a service needs, and a place for doors of a program outside: an engine without store and threads.
-// Usually its time is virtual and all its drives are simulated; a comparison gives it real lines and real time. It has no connection to the
-// running gateway. Bounds: the events are not kept, only the newest warning of a drive.
+// A gateway by itself, with the ports that a service needs, and a place for doors of a program outside: an engine without store and
+// threads. Usually its time is virtual and all its drives are simulated; a comparison gives it real lines and real time. It has no
+// connection to the running gateway. Bounds: the events are not kept, only the newest warning of a drive.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -15,22 +15,16 @@
 #include "gateway/engine/engine.hpp"
 #include "gateway/services/ports/axes.hpp"
 #include "gateway/services/ports/clock.hpp"
-#include "gateway/services/ports/documents.hpp"
-#include "gateway/services/ports/events.hpp"
 #include "gateway/services/ports/site.hpp"
 #include "gateway/services/recipes/rehearsal_doors.hpp"
+#include "gateway/services/recipes/rehearsal_ports.hpp"
 
 namespace axisgate {
 
 /// The site with every drive simulated: lines become twin lines with the same medium and bit rate.
 [[nodiscard]] Site simulated_site(Site site, const Families& families);
 
-class RehearsalGateway final : public EngineHost,
-                               public AxisPort,
-                               public ClockPort,
-                               public DocumentPort,
-                               public EventPort,
-                               public SitePort {
+class RehearsalGateway final : public EngineHost, public AxisPort, public ClockPort, public NoDocuments, public NoEvents, public SitePort {
 public:
     /// What it gets from outside if it is not only simulated.
     struct Outside {
@@ -74,17 +68,9 @@ public:
     // --- ClockPort: the wall clock begins at 1970-01-01
     [[nodiscard]] std::int64_t now_unix_ns() const override { return to_unix_ns(now_); }
     [[nodiscard]] std::int64_t to_unix_ns(Instant instant) const override { return (instant - time_zero).count(); }
-    // --- DocumentPort: reports of the run are not kept
-    [[nodiscard]] std::vector<Document> documents(const std::string&) const override { return {}; }
-    [[nodiscard]] std::optional<Document> document(const std::string&, const std::string&) const override { return {}; }
-    void save_document(const std::string&, Document, std::function<void(std::string)> then) override { then(""); }
-    void delete_document(const std::string&, const std::string&, std::function<void(std::string)> then) override { then(""); }
-    // --- EventPort
-    [[nodiscard]] std::vector<Event> events(const EventQuery&) const override { return {}; }
-    void note(Event) override {}
-    void listen(EventListener*) override {}
-    void unlisten(EventListener*) override {}
     // --- SitePort: the site does not change
+    using NoEvents::listen;
+    using NoEvents::unlisten;
     [[nodiscard]] std::shared_ptr<const SiteState> site() const override { return engine_.site(); }
     [[nodiscard]] const Families& families() const override { return families_; }
     void apply_site(Site, std::uint64_t, Origin, std::function<void(SiteAnswer)> then) override;

@@ -72,11 +72,7 @@ inline std::vector<Rule> rules() {
         // bit 4
         {"bit 12 falls with bit 4, of who has set it or may have",
          Events{E::enable_operation, E::enable_operation_by_a_stranger, E::set_point_with_halt_bit, E::end_of_bit_4}, S::moving, V::bit_12},
-        {"a set-point is counted and acknowledged",
-         set_points,
-         S::standing,
-         {},
-         {{V::set_points, "+1"}, {V::bit_12, "1"}}},
+        {"a set-point is counted and acknowledged", set_points, S::standing, {}, {{V::set_points, "+1"}, {V::bit_12, "1"}}},
         {"a set-point waits behind a motion", E::set_point, S::moving, {}, {{V::set_points, "+1"}, {V::waiting, "to 3000"}}},
         {"a set-point with bit 5 forgets the motion and what waits",
          E::set_point_at_once,

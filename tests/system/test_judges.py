@@ -93,7 +93,7 @@ def moved(g, reference, near, far, speed, ramp, close):
 LINMOT = (("--line", "tcp"),
           ("--line", "tcp", "--answer-ms", "0..60", "--chunk", "3", "--count", "5", "--old-state-ms", "120", "--homing-ms", "700", "--test-ms", "900"),
           ("--line", "tcp", "--old-state-ms", "300", "--no-ram"),
-          ("--line", "pty", "--noise", "0.2", "--drop", "17", "--others", "3", "--forced", "--no-ram", "--boot-ms", "500"))
+          ("--line", "pty", "--noise", "0.2", "--drop", "17", "--forced", "--no-ram", "--boot-ms", "500"))
 
 
 def test_linmot_drives_of_the_manual_are_moved(folder):

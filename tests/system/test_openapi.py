@@ -180,7 +180,8 @@ def test_every_get_answers_as_described_in_every_state_of_an_axis(gateway):
     for axis in NAMES["axis"]:
         gateway.send("POST", f"/axes/{axis}/snapshots", {"name": "first", "from": "stored"}, 201)
     seen = read_everything(gateway, client, "fresh")
-    missing = {(o.id, 200) for o in API.operations if o.method == "GET" and o.id != "openStream"} - seen
+    # A comparison needs a real drive: test_compare.
+    missing = {(o.id, 200) for o in API.operations if o.method == "GET" and o.id not in {"openStream", "getComparison"}} - seen
     assert not missing, missing
     gateway.command("feeder", {"command": "enable"})
     gateway.command("feeder", {"command": "move_velocity", "velocity": 1, "acceleration": 20}, wait=0)

@@ -8,7 +8,7 @@
 
 #include "adapters/linmot/motion_commands.hpp"
 #include "adapters/linmot/wire.hpp"
-#include "adapters/linmot/wire_shared_line.hpp"
+#include "adapters/linmot/wire_sharing.hpp"
 #include "gateway/drive/bus.hpp"
 #include "gateway/drive/part.hpp"
 

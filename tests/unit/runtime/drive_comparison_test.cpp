@@ -123,8 +123,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Case{"cia402", "5", LineKind::can, "6083h", 4321, sdo}, Case{"aposs", "3", LineKind::can, "VELMAX", 1234, sdo},
                     Case{"uim342", "5", LineKind::can, "AC", 4321, uirobot}, Case{"uim342", "5", LineKind::bytes, "AC", 4321, uirobot},
                     Case{"mcode", "!", LineKind::bytes, "HT", 432, prints}, Case{"linmot", "17", LineKind::bytes, "1018h.rom", 432, reads},
-                    Case{"pacontrol", "com1", LineKind::bytes, "SP[1]", 4, gets},
-                    Case{"example", "1", LineKind::bytes, "R06", 4321, "is asked"}));
+                    Case{"pacontrol", "com1", LineKind::bytes, "SP[1]", 4, gets}));
 
 TEST(DriveComparison, AValueThatChangesMeanwhileIsNamed) {
     SweptLine line({.family = "uim342", .address = "5"});

@@ -30,8 +30,10 @@ public:
     static constexpr std::size_t stop_limit = 8;  ///< stops that can be in progress at once; a further one is refused as busy
     /// A drive that has acknowledged an enable shows its power within this time; the enable is answered then.
     static constexpr Duration power_shows_within = std::chrono::seconds(3);
-    /// The state of a drive may show a change so late: power that is shown after an acknowledged disable is that of before.
+    /// The state of a drive may show a change so late: power that is shown after an acknowledged disable is that of before, and so is rest
+    /// behind a move, further than `play` increments from its target.
     static constexpr Duration state_is_late = std::chrono::milliseconds(500);
+    static constexpr std::int64_t play = 50;
     using Job = DialogueJob<Message>;
 
     Dialogue(Bus& bus, const DriveSetup& setup, std::size_t slot) : DriveBase(setup, bus.timing, slot, Channels), bus_(bus) {}
@@ -90,6 +92,8 @@ private:
         std::vector<Ticket> enabling;  ///< enables that the drive has acknowledged without showing its power yet
         Instant on_by{};               ///< until then at the latest
         Instant off_until{};           ///< a disable was acknowledged: the power that is shown until then may be that of before
+        Instant rest_until{};          ///< a move was acknowledged: rest that is shown until then away from `target` is that of before
+        std::int64_t target = 0;       ///< of that move, increments
     };
     [[nodiscard]] static Polls::Item item(int channel) noexcept { return static_cast<Polls::Item>(channel); }
     [[nodiscard]] static std::size_t place(int channel) noexcept { return has(channel) ? static_cast<std::size_t>(channel) : 0; }
@@ -104,6 +108,7 @@ private:
     void learnt(int channel, Turn& t);
     void emit(int channel, Turn& t);
     void look_for_power(int channel, Turn& t);
+    void leave_out_older(Axis& axis, Instant now) const;
     void begin(Job job, Turn& t);
     [[nodiscard]] Job job_for(const SetPoint& set_point);
     void step_answered(const Message& answer, Turn& t);

@@ -188,6 +188,7 @@ void Dialogue<Message, Channels>::answered(const Ask& ask, const Message& answer
     if (ask.why != Ask::Why::stop) return;
     if (!stops_.empty()) stops_.remove(stops_.first());
     (void)polls_.soon(item(ask.channel), t.now);
+    if (!what.refused) at(ask.channel).rest_until = {};
     if (!what.refused && ask.body && std::holds_alternative<Disable>(*ask.body)) at(ask.channel).off_until = t.now + state_is_late;
     if (!what.refused) tickets.accepted(ask.ticket, t.out);
     tickets.refused(ask.ticket, Reason::drive_refused, "the drive refuses the stop with code " + what.text, t.out);
@@ -220,10 +221,14 @@ void Dialogue<Message, Channels>::finish(const Job& job, const Reported& what, T
     AxisFeedback& fb = at(channel).feedback;
     if (!job.streamed || !fb.moving) (void)polls_.soon(item(channel), t.now);
     if (job.streamed) return;
-    if (std::holds_alternative<Move>(body)) {
+    if (const auto* move = std::get_if<Move>(&body)) {
+        at(channel).target = move->kind == Move::Kind::relative ? fb.position + move->target : move->target;
+        at(channel).rest_until = move->kind == Move::Kind::velocity ? Instant{} : t.now + state_is_late;
         fb.target_reached = false;  // "target reached" of the old target must not be reported for the new one
         fb.moving = true;
         emit(channel, t);
+    } else if (std::holds_alternative<Home>(body) || std::holds_alternative<SetPosition>(body)) {
+        at(channel).rest_until = {};
     }
     this->acted(body, fb);
     if (std::holds_alternative<Enable>(body) && fb.power != AxisFeedback::Power::on) {
@@ -251,13 +256,24 @@ template <class Message, int Channels>
 void Dialogue<Message, Channels>::learnt(int channel, Turn& t) {
     if (!has(channel)) return;
     Axis& a = at(channel);
-    if (t.now < a.off_until && a.feedback.power == AxisFeedback::Power::on) a.feedback.power = AxisFeedback::Power::off;
+    leave_out_older(a, t.now);
     const bool moves = a.feedback.moving;
     const Duration period = bus_.timing.poll_period;
     (void)polls_.every(item(channel), pace_.period(period, moves), t.now + pace_.period(period, false));
     polls_.quick(item(channel), moves && !pace_.close());
     emit(channel, t);
     look_for_power(channel, t);
+}
+
+/// What a state says that is older than the last acknowledged order is left out.
+template <class Message, int Channels>
+void Dialogue<Message, Channels>::leave_out_older(Axis& a, Instant now) const {
+    AxisFeedback& fb = a.feedback;
+    if (now < a.off_until && fb.power == AxisFeedback::Power::on) fb.power = AxisFeedback::Power::off;
+    if (now >= a.rest_until || fb.moving || fb.fault || fb.power != AxisFeedback::Power::on) return;
+    if (std::llabs(fb.position - a.target) <= play) return;
+    fb.moving = true;
+    fb.target_reached = false;
 }
 
 /// Many drives acknowledge an enable at once and come on later, for a brake or a test; a motion in between would be refused.

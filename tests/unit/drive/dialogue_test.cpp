@@ -257,6 +257,39 @@ TEST_F(ToyLineThatIsOff, ADisableEndsAnEnableWhosePowerIsNotShown) {
     EXPECT_EQ(results[0].reason, Reason::interrupted);
 }
 
+TEST_F(ToyLine, RestThatIsShownLateBehindAMoveIsThatOfBefore) {
+    const auto shown = [&] { return out.feedback.empty() ? AxisFeedback{} : out.feedback.back().value; };
+    command(1, to(900));
+    ASSERT_TRUE(comes("1m900"));
+    answer('m', 900);
+    ASSERT_TRUE(comes("1s0"));
+    answer('s', 0);
+    EXPECT_TRUE(shown().moving) << "it has not begun, or the state is older";
+    ASSERT_TRUE(comes("1s0"));
+    answer('s', 890);
+    EXPECT_FALSE(shown().moving) << "at its target";
+    command(2, to(100));
+    ASSERT_TRUE(comes("1m100", 890));
+    answer('m', 100);
+    now += 600ms;
+    ASSERT_TRUE(comes("1s0", 890));
+    answer('s', 890);
+    EXPECT_FALSE(shown().moving) << "after so long it is believed";
+}
+
+TEST_F(ToyLine, AStopBehindAMoveIsShownAtOnce) {
+    command(1, to(900));
+    ASSERT_TRUE(comes("1m900"));
+    answer('m', 900);
+    command(2, Halt{});
+    ASSERT_TRUE(comes("1h0"));
+    answer('h', 0);
+    ASSERT_TRUE(comes("1s0", 300));
+    answer('s', 300);
+    ASSERT_FALSE(out.feedback.empty());
+    EXPECT_FALSE(out.feedback.back().value.moving);
+}
+
 TEST_F(ToyLine, AStreamTellsWhatTheDriveKeepsOnlyWhenItChanges) {
     stream(10, 500);
     ASSERT_TRUE(comes("1m10"));

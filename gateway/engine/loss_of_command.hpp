@@ -12,7 +12,7 @@ public:
     LossOfCommand(Machine& machine, Pending& pending, EngineHost& host, Publisher& publisher, Orders& orders, Streams& streams)
         : machine_(machine), pending_(pending), host_(host), publisher_(publisher), orders_(orders), streams_(streams) {}
     void on_client_lost(const AuthorityClient& who, LossCause cause, Instant now);
-    /// The lease of `holder` on this axis has expired or was given up.
+    /// The lease of `holder` on this axis has expired.
     void on_lease_ended(Axis& axis, const AuthorityClient& holder, Instant now);
     /// The action of the axis' site entry for this cause. `lost` is the lost client, if it is not the owner of the motion.
     void act(Axis& axis, LossCause cause, Instant now, const AuthorityClient* lost = nullptr);

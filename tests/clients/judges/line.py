@@ -168,3 +168,13 @@ class Checks:
     @property
     def code(self):
         return 1 if self.failed else 0
+
+
+def crc16(data):
+    """The cyclic redundancy check of Modbus and of UIMessage: A001h, from FFFFh."""
+    value = 0xFFFF
+    for b in data:
+        value ^= b
+        for _ in range(8):
+            value = value >> 1 ^ 0xA001 if value & 1 else value >> 1
+    return value

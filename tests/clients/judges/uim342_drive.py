@@ -9,7 +9,7 @@ a drive or a converter. Jog and point to point, ST, OG, errors and their history
 import struct
 import time
 
-from line import DriveLine, arguments
+from line import arguments, crc16, DriveLine
 from shaft import Shaft
 
 parser = arguments(__doc__)
@@ -24,20 +24,11 @@ parser.add_argument("--reserved", type=int, default=0, help="value of the bytes 
 args = parser.parse_args()
 
 
-def crc(data):
-    value = 0xFFFF
-    for b in data:
-        value ^= b
-        for _ in range(8):
-            value = value >> 1 ^ 0xA001 if value & 1 else value >> 1
-    return value
-
-
 def message(node, word, data):
     body = bytes([node, word, len(data)]) + data + bytes([args.reserved]) * (9 - len(data))
     if args.crc == "none":
         return b"\xAD" + body + b"\0\0\xCC"
-    return b"\xAA" + body + struct.pack("<H", crc(body if args.crc == "12" else b"\xAA" + body)) + b"\xCC"
+    return b"\xAA" + body + struct.pack("<H", crc16(body if args.crc == "12" else b"\xAA" + body)) + b"\xCC"
 
 
 class Error(Exception):
@@ -259,7 +250,7 @@ class Converter:
         while len(self.buffer) >= 16:
             m = self.buffer[:16]
             under = m[1:13] if args.crc == "12" else m[:13]
-            good = m[0] == 0xAD or m[0] == 0xAA and struct.unpack("<H", m[13:15])[0] == crc(under)
+            good = m[0] == 0xAD or m[0] == 0xAA and struct.unpack("<H", m[13:15])[0] == crc16(under)
             if m[15] != 0xCC or not good or m[3] > 8:
                 self.buffer = self.buffer[1:]
                 continue

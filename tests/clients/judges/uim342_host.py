@@ -10,7 +10,7 @@ import struct
 import sys
 import time
 
-from line import Checks, HostLine
+from line import Checks, crc16, HostLine
 
 check = Checks("a UIM342 host")
 line, NODE = HostLine(sys.argv[1]), int(sys.argv[2])
@@ -19,18 +19,9 @@ PP, IE, ML, ER, MS, MO, BG, ST, AC, DC, SD, JV, SP, PR, PA, OG, DV, RT = (
 notified = []
 
 
-def crc(data):
-    value = 0xFFFF
-    for b in data:
-        value ^= b
-        for _ in range(8):
-            value = value >> 1 ^ 0xA001 if value & 1 else value >> 1
-    return value
-
-
 def send(word, data=b"", wrong=0):
     body = bytes([NODE, word, len(data)]) + data + bytes(9 - len(data))
-    line.send(b"\xAA" + body + struct.pack("<H", crc(body) ^ wrong) + b"\xCC")
+    line.send(b"\xAA" + body + struct.pack("<H", crc16(body) ^ wrong) + b"\xCC")
 
 
 def whole(got):
@@ -42,7 +33,7 @@ def receive(seconds=2.0):
     end = time.monotonic() + seconds
     while True:
         m = line.until(whole, max(0.0, end - time.monotonic()))
-        while m[0] != 0xAA or m[15] != 0xCC or struct.unpack("<H", m[13:15])[0] != crc(m[1:13]):
+        while m[0] != 0xAA or m[15] != 0xCC or struct.unpack("<H", m[13:15])[0] != crc16(m[1:13]):
             m = m[1:] + line.until(lambda got: 1 if got else 0, max(0.0, end - time.monotonic()))
         if m[1] == NODE and m[2] == RT:
             notified.append(m[4:4 + m[3]])

@@ -50,6 +50,25 @@ if (isMock) {
     await page.locator('[data-axis=press]').waitFor();
   });
 
+  test('a real drive is compared with its twin, a value that differs is shown, and the twin adopts what the drive holds', async () => {
+    assert.equal((await program.call('PUT', '/axes/press/parameters/AC', { value: 4321 })).status, 200);
+    await page.goto(`${program.url}/axes/press/simulation`);
+    await page.getByRole('button', { name: 'Compare with the twin' }).click();
+    const row = page.locator('[data-compared=AC]');
+    await row.waitFor({ timeout: 60_000 });
+    assert.match(await row.innerText(), /4321.*differs/s);
+    await until('it is summed up', async () => /values read, \d+ differences/.test(await page.locator('[data-field=compare-drive-told]').innerText()));
+    await shot(page, 'drive-compared');
+    await page.getByRole('button', { name: 'Adopt in the twin' }).click();
+    await until('the adoption is told', async () => /were adopted/.test(await page.locator('[data-field=compare-drive-told]').innerText()));
+    assert.equal((await program.call('GET', '/axes/press/parameters/AC')).body.value, 4321, 'nothing is written to the drive');
+    await page.goto(`${program.url}/axes/feeder/simulation`);
+    await page.getByRole('button', { name: 'Compare with the twin' }).click();
+    await until('a simulated drive is refused', async () => /is simulated now/.test(await page.locator('[data-field=compare-drive-told]').innerText()));
+    await page.goto(program.url);
+    await page.locator('[data-axis=press]').waitFor();
+  });
+
   test('a drive that is pulled out costs its own axis alone, and the reason is told', async () => {
     await drive.stop('SIGKILL');
     const press = tileOf(page, 'press');

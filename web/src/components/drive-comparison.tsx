@@ -86,7 +86,7 @@ export function DriveCompare({ axis }: { axis: string }) {
     door.newest().then((r) => here && (report.value = r), () => undefined);
     return () => void (here = false);
   }, [door]);
-  const summary = (r: DriveComparison) => r.fault ?? t('{read} values read, {differences} differences, specimen {specimen}', { read: r.read, differences: r.differences, specimen: r.specimen });
+  const summary = (r: DriveComparison) => r.fault ?? t('{read} values read, differences: {differences}, specimen {specimen}', { read: r.read, differences: r.differences, specimen: r.specimen });
   const compare = async () => {
     reported.value = { tone: 'busy', text: t('Checking…') };
     try {

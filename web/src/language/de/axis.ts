@@ -78,7 +78,7 @@ export const axis: Table = {
   'the twin refuses it': 'der Zwilling verweigert ihn',
   'Answers outside the range of reply times': 'Antworten außerhalb des Bereichs der Antwortzeiten',
   '{n} values that the twin cannot adopt': '{n} Werte, die der Zwilling nicht übernehmen kann',
-  '{read} values read, {differences} differences, specimen {specimen}': '{read} Werte gelesen, {differences} Unterschiede, Exemplar {specimen}',
+  '{read} values read, differences: {differences}, specimen {specimen}': '{read} Werte gelesen, {differences} Unterschiede, Exemplar {specimen}',
   'Reading the drive: {done} of {of} …': 'Der Antrieb wird gelesen: {done} von {of} …',
   'The twin starts as this drive when the drive is away; {n} values were adopted.': 'Der Zwilling startet als dieser Antrieb, wenn der Antrieb fort ist; {n} Werte wurden übernommen.',
   'Twin': 'Zwilling',

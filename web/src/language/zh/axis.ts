@@ -78,7 +78,7 @@ export const axis: Table = {
   'the twin refuses it': '孪生体拒绝',
   'Answers outside the range of reply times': '超出应答时间范围的应答',
   '{n} values that the twin cannot adopt': '孪生体无法采用的 {n} 个值',
-  '{read} values read, {differences} differences, specimen {specimen}': '已读取 {read} 个值，{differences} 处差异，样机 {specimen}',
+  '{read} values read, differences: {differences}, specimen {specimen}': '已读取 {read} 个值，{differences} 处差异，样机 {specimen}',
   'Reading the drive: {done} of {of} …': '正在读取驱动器：{done} / {of} …',
   'The twin starts as this drive when the drive is away; {n} values were adopted.': '驱动器不在时，孪生体将作为该驱动器启动；已采用 {n} 个值。',
   'Twin': '孪生体',

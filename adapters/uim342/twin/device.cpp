@@ -173,8 +173,13 @@ Instant Device::earliest() const noexcept {
 
 /// Everything that is due up to `now`, each at its own instant.
 void Device::settle(Instant now, Out& out) {
-    for (next_ = earliest(); next_ <= now; next_ = earliest())
-        step(next_, out);
+    for (next_ = earliest(); next_ <= now; next_ = earliest()) {
+        if (next_ == unasked_at_ && now - next_ >= manners_.unasked_status) {
+            unasked_at_ += (now - next_) / manners_.unasked_status * manners_.unasked_status;  // of those that a late call missed, the last
+        } else {
+            step(next_, out);
+        }
+    }
     last_ = now;
     axis_.follow(now);
     keep_position(now);

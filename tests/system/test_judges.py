@@ -159,7 +159,7 @@ UIM342 = ((("--line", "tcp"), {}),
 def test_uim342_drives_of_the_manual_are_moved(folder):
     for n, (switches, options) in enumerate(UIM342):
         with drive("uim342_drive", *switches) as uri, Gateway(make(folder, n), site("uim342", uri, 5, {"options": options})) as g:
-            in_motion(g, {"command": "home"}, 20000, -300000, 100000, 400000)
+            in_motion(g, {"command": "home"}, 20000, -600000, 100000, 400000)  # six seconds: a reading that is lost costs one
 
 
 def test_a_uim342_host_of_the_manual_moves_the_twin(folder):

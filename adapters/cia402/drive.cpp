@@ -52,7 +52,8 @@ Drive::Drive(Line& line, const DriveSetup& setup, std::size_t slot)
       heartbeat_(node.number) {
     drive::OptionReader options(node.setup.options);
     node.only_reads = only_reads(node.setup.options);
-    node.keep_quick_stop = options.flag("quick_stop_stays", true, "yes", "no");
+    node.keep_quick_stop = options.flag("quick_stop_stays", false, "yes", "no");
+    node.restart_stopped = options.flag("restart_stopped", false, "yes", "no");
     node.keep_limits = options.flag("drive_limits", true, "on", "off");
     heartbeat_period_ = options.milliseconds("heartbeat_ms", 0, 60'000, heartbeat_period_);
     node.mode_timeout = options.milliseconds("mode_timeout_ms", 10, 10'000, node.mode_timeout);

@@ -18,7 +18,7 @@ void NmtWatch::stopped(Turn& t) {
     constexpr int most_starts = 3;
     constexpr Duration in = std::chrono::minutes(1);
     Node& node = drive_.node;
-    const bool turns = turning();
+    const bool turns = turning(), again = turns || node.restart_stopped;
     if (!std::exchange(node.stopped, true)) {
         // The exchange of a stop starts the node itself.
         if (drive_.exchanges.ask().why != Ask::Why::stop && drive_.exchanges.give_up())
@@ -29,11 +29,13 @@ void NmtWatch::stopped(Turn& t) {
         const std::string text = fmt::format(
             "somebody else has stopped the node (NMT stop): it answers nothing and shows nothing but its heartbeat{}; nmt_start starts "
             "it again",
-            turns ? ", while it may be turning: it is started again, to be seen" : "");
+            turns   ? ", while it may be turning: it is started again, to be seen"
+            : again ? "; it is started again (option restart_stopped)"
+                    : "");
         drive_.notice(Severity::warning, "nmt_stopped", 0, fmt::format("{}: {}", node.setup.name, text), t);
         node.presence.report(text, t.out);
     }
-    if (!turns || node.only_reads) return;
+    if (!again || node.only_reads) return;
     if (t.now - since_ > in) starts_ = 0, since_ = t.now;
     if (++starts_ <= most_starts) start(Priority::command, no_ticket, t);
 }

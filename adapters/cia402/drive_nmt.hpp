@@ -1,5 +1,5 @@
 // NmtWatch treats nodes that another NMT master has stopped: such a node answers no SDO and sends its heartbeat only. A node whose axes
-// stand still is never started, because somebody may be working on it.
+// stand still is not started, because somebody may be working on it, unless the site says so (option `restart_stopped`).
 #pragma once
 
 #include "adapters/cia402/drive_node.hpp"

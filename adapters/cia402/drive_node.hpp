@@ -105,7 +105,8 @@ struct Node {
     bool stopped = false;                              ///< another NMT master has stopped it: no SDO answers and no PDOs
     Duration mode_timeout = std::chrono::seconds(1);   ///< from the write of 6060h until 6061h shows the mode
     Duration start_timeout = std::chrono::seconds(1);  ///< from the start bit until the drive has acknowledged it
-    bool keep_quick_stop = true;
+    bool restart_stopped = false;                      ///< a node that another NMT master has stopped is started again, also if it stands
+    bool keep_quick_stop = false;
     bool only_reads = false;  ///< nothing is set up: the values are read by SDO
     bool keep_limits = true;  ///< option drive_limits: the site's position limits are written to 607Dh
     Watch watch;

@@ -255,7 +255,7 @@ void Axis::first_read(const Step& step, const canopen::SdoEnd& end) {
     if (a == object::cycle && end.done()) known.interpolation.value = raw;
     if (a == object::cycle_index && end.done()) known.interpolation.index = signed_of(end.data);
     if (a == object::error_code && end.done()) known.fb.error_code = node.number_of(static_cast<std::uint16_t>(raw));
-    // A quick stop must end in "quick stop active", where it is visible, not in a drive that is switched off.
+    // The site wants quick stops to end in "quick stop active", where they stay visible.
     if (a == object::quick_stop_option) change_quick_stop_ = end.done() && node.keep_quick_stop && raw < 5;
 }
 

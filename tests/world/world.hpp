@@ -46,6 +46,11 @@ inline const Families& families() {
     return all;
 }
 
+inline bool has_option(const FamilyEntry& e, std::string_view name) {
+    const auto* list = e.catalogue->document().if_contains("options");
+    return list && std::ranges::any_of(list->as_array(), [&](const auto& o) { return o.at("name").as_string() == name; });
+}
+
 /// `n` different valid addresses of a family: from the catalogue's "address" (min..max, or "examples").
 inline std::vector<std::string> addresses(const FamilyEntry& e, std::size_t n) {
     std::vector<std::string> out;
@@ -172,7 +177,10 @@ public:
         const auto list = addresses(e, drives);
         for (std::size_t i = 0; i < list.size(); ++i) {
             const std::string drive = "a" + std::to_string(i * static_cast<std::size_t>(channels) + 1);
-            ds.push_back({{"name", drive}, {"line", "line"}, {"address", list[i]}, {"presence", presence}});
+            json::object d{{"name", drive}, {"line", "line"}, {"address", list[i]}, {"presence", presence}};
+            // The laws look for quick stop active; specimens without 605Ah end off, and the laws know that, too.
+            if (has_option(e, "quick_stop_stays")) d["options"] = json::object{{"quick_stop_stays", "yes"}};
+            ds.push_back(std::move(d));
             for (int c = 1; c <= channels; ++c) {
                 const std::size_t n = as.size() + 1;
                 as.push_back({{"name", "a" + std::to_string(n)},

@@ -39,6 +39,7 @@ TEST(Cia402Adapter, ADriveStopsByItselfWhenNothingOfTheGatewayReachesItAndStands
     LineBench b;
     b.run(2s);
     ASSERT_TRUE(armed(b, 1000ms, "quick_stop"));
+    ASSERT_TRUE(good(b.ask(WriteParameter{*page().find("605Ah"), Value{std::int64_t{6}}}))) << "a quick stop stays";
     ASSERT_TRUE(b.enable());
     ASSERT_TRUE(good(b.ask(run_at(10'000))));
     b.run(5s);

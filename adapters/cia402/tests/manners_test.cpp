@@ -155,6 +155,27 @@ TEST(Cia402LateMode, AModeThatDoesNotComeIsSaidAndDoesNotComeAboutLater) {
     EXPECT_EQ(b.place(), 1000);
 }
 
+TEST(Cia402NmtStop, AStandingNodeIsStartedAgainWhereTheSiteSaysSoThreeTimesAMinuteAtMost) {
+    Manners b({}, {{"restart_stopped", "yes"}});
+    b.run(2s);
+    ASSERT_TRUE(good(b.line("6007:00=0")));
+    ASSERT_TRUE(b.enable());
+    b.others(canopen::nmt_frame(canopen::NmtCommand::stop, 5));
+    b.run(2s);
+    EXPECT_EQ(b.reported("nmt_stopped"), 1);
+    EXPECT_EQ(b.link.text.find("NMT"), std::string::npos) << b.link.text;
+    ASSERT_TRUE(good(b.ask(LineBench::to(1000))));
+    b.run(2s);
+    EXPECT_EQ(b.place(), 1000);
+    constexpr int others = 20;  // the bench counts their frames, too
+    b.started = -others;
+    for (int n = 0; n < others; ++n) {
+        b.others(canopen::nmt_frame(canopen::NmtCommand::stop, 5));
+        b.run(1500ms);
+    }
+    EXPECT_EQ(b.started, 2) << "with the first one three in a minute: two masters that disagree do not fight";
+}
+
 TEST(Cia402LateMode, TheSiteMayWaitLonger) {
     Manners b({}, {{"mode_timeout_ms", "10000"}});
     b.run(2s);

@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto eds = read_eds(text, faults, notes);
     require(eds.has_value() == faults.empty(), "a description, or faults");
     require(faults.size() <= most_file_faults + 1 && notes.size() <= most_file_faults + 1, "a bounded number of them");
-    const auto lines = static_cast<std::size_t>(std::ranges::count(text, '\n')) + 1;
+    const auto lines = static_cast<std::size_t>(std::ranges::count(text, '\n') + std::ranges::count(text, '\r')) + 1;
     for (const auto& list : {faults, notes})
         for (const auto& f : list)
             require(f.line <= lines && !f.text.empty() && is_utf8(f.text), "a fault has its line and words");

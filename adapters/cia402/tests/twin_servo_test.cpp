@@ -1,4 +1,4 @@
-// The simulated CiA 402 drive on the bus: recorded frames, power states, modes, homing, faults, PDOs, memory, descriptions.
+// The simulated CiA 402 drive on the bus: recorded frames, power states, modes, homing, faults, PDOs, memory.
 #include <sstream>
 
 #include "adapters/cia402/tests/twin_bench.hpp"
@@ -491,26 +491,6 @@ TEST(Cia402Twin, WithoutSafeVoltageTheShaftRunsDownAndNoWordSwitchesItOn) {
     b.pass(1s);
     EXPECT_EQ(b.read(0x606C), 0);
     b.enable(3);
-}
-
-TEST(Cia402Twin, IsBuiltFromADescriptionAndSaysWhatItDoesNotModel) {
-    const std::string text =
-        "[FileInfo]\nFileName=a.eds\n[DeviceInfo]\nVendorNumber=0x99\n[MandatoryObjects]\nSupportedObjects=1\n1=0x1000\n"
-        "[1000]\nParameterName=Device type\nObjectType=0x7\nDataType=0x0007\nAccessType=ro\nDefaultValue=0x00020192\nPDOMapping=0\n"
-        "[ManufacturerObjects]\nSupportedObjects=1\n1=0x2100\n"
-        "[2100]\nParameterName=Gain\nObjectType=0x7\nDataType=0x0006\nAccessType=rw\nDefaultValue=12\nHighLimit=100\nPDOMapping=0\n"
-        "[OptionalObjects]\nSupportedObjects=1\n1=0x6081\n"
-        "[6081]\nParameterName=Profile velocity\nObjectType=0x7\nDataType=0x0007\nAccessType=rw\nDefaultValue=4321\nPDOMapping=1\n";
-    std::vector<canopen::FileFault> faults, notes;
-    const auto eds = canopen::read_eds(text, faults, notes);
-    ASSERT_TRUE(eds) << (faults.empty() ? "" : faults[0].text);
-    Bench b({}, &*eds);
-    EXPECT_EQ(b.read(0x2100), 12);
-    EXPECT_EQ(b.write(0x2100, 0, 101, 2), Abort::too_high);
-    EXPECT_EQ(b.write(0x2100, 0, 99, 2), Abort::none);
-    EXPECT_EQ(b.read(0x6081), 4321);
-    for (const auto& item : b.twin->hand())
-        if (item.name == "unmodelled") EXPECT_EQ(item.value, Value{std::int64_t{1}});
 }
 
 }  // namespace

@@ -10,17 +10,30 @@
 namespace axisgate::cia402_drive::twin {
 namespace {
 
-/// The built-in dictionary with the values of a description; counts the entries that the model does not know.
+/// The built-in dictionary with the values of a description; counts the entries that the model does not know. Where the description gives
+/// no value, the model's stays; the identity is that of [DeviceInfo] where 1018h gives none.
 canopen::Dictionary described(std::uint8_t node, const canopen::Eds* eds, std::int64_t& unmodelled) {
     canopen::Dictionary d = factory_dictionary(node);
     if (eds == nullptr) return d;
     const canopen::Dictionary own = canopen::dictionary_of(*eds, node);
+    const auto silent = [eds](canopen::Address a) {
+        const auto e = eds->entries.find(a);
+        return e == eds->entries.end() || (!e->second.configured.given() && !e->second.fallback.given());
+    };
     for (const auto& [address, entry] : own.entries()) {
         const canopen::Entry* known = d.find(address);
         if (known == nullptr) ++unmodelled;
-        // An entry with another type than the standard's would be another object: the model keeps its own, with the description's value.
-        if (known == nullptr || known->type == entry.type) d.add(address, entry);
+        if (known == nullptr || known->type == entry.type) {
+            canopen::Entry e = entry;
+            if (known != nullptr && silent(address)) e.bytes = known->bytes;
+            d.add(address, std::move(e));
+        } else if (!silent(address)) {
+            (void)d.set(address, own.value(address));  // another type than the standard's would be another object: its value alone
+        }
     }
+    std::uint8_t sub = 0;
+    for (const auto& number : {eds->vendor_number, eds->product_number, eds->revision_number})
+        if (const canopen::Address at{0x1018, ++sub}; number && silent(at)) (void)d.set(at, Value{std::int64_t{*number}});
     return d;
 }
 

@@ -238,6 +238,7 @@ Handled cancel_scan(Call&, LinePort&, const SitePort&);
 // --- handlers_descriptions.cpp ----------------------------------------------------------------------------------------
 Handled list_descriptions(Call&, const DescriptionFiles&);
 Handled get_drive_description(Call&, const DescriptionFiles&);
+Handled get_description_objects(Call&, const DescriptionFiles&);
 Handled add_description(Call&, const DescriptionFiles&);
 Handled remove_description(Call&, const DescriptionFiles&);
 // --- handlers_recorder.cpp --------------------------------------------------------------------------------------------

@@ -22,6 +22,11 @@ Handled get_drive_description(Call& c, const DescriptionFiles& files) {
     return r;
 }
 
+Handled get_description_objects(Call& c, const DescriptionFiles& files) {
+    const auto found = files.find(c.names[0]);
+    return found ? json_response(DescriptionFiles::objects(*found)) : nothing_named("description", c.names[0]);
+}
+
 Handled add_description(Call& c, const DescriptionFiles& files) {
     std::vector<Fault> faults;
     auto file = read_description(c.body, c.request.body, std::string(c.target.query.get("name").value_or("")), faults);

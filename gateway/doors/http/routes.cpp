@@ -132,6 +132,7 @@ constexpr std::array routes{
     Route{"/api/v1/descriptions", Method::get, take<list_descriptions>},
     Route{"/api/v1/descriptions", Method::post, take<add_description>, Takes::eds}.asks("name"),
     Route{"/api/v1/descriptions/{description}", Method::get, take<get_drive_description>, Takes::nothing, Gives::own}.asks("format"),
+    Route{"/api/v1/descriptions/{description}/objects", Method::get, take<get_description_objects>},
     Route{"/api/v1/descriptions/{description}", Method::remove, take<remove_description>, Takes::nothing, Gives::nothing},
     Route{"/api/v1/fail_safe", Method::get, take<get_fail_safe>},
     Route{"/api/v1/fail_safe/rehearsal", Method::get, take<get_rehearsal>},

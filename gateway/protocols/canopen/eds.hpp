@@ -1,7 +1,8 @@
 // EDS and DCF (CiA 306-1): the manufacturer's description of a device as a text file, and the same with the values of one device.
-// Text of any origin and size is read into the device and its objects, or into a list of all faults with their lines. A description can
-// be written as a DCF and made into an object dictionary. The size is bounded as in Ini, and to 50,000 entries. No type, access or number
-// is guessed: text that cannot be read is a fault; text that is unusual but usable gives a note.
+// Text of any origin and size is read into the device and its objects. Makers' files have odd rows: each is left out, or read by a rule
+// that cannot harm (an unknown access is read only, an unknown type is a row of bytes, limits that contradict each other are none), and a
+// note with its line says what was done. Only a file without an object, or beyond a bound (as in Ini, and 50,000 entries), is a fault. A
+// description can be written as a DCF and made into an object dictionary.
 #pragma once
 
 #include <cstdint>
@@ -49,7 +50,7 @@ struct EdsObject {
 
 /// DeviceComissioning in a DCF (the standard spells it so).
 struct Commissioning {
-    std::uint8_t node = 0;  ///< 1..127
+    std::uint8_t node = 0;  ///< 1..127; 0: not given
     std::string node_name;
     std::uint32_t kbit = 0;  ///< Baudrate; 0: not given
     bool operator==(const Commissioning&) const = default;
@@ -68,7 +69,7 @@ struct Eds {
     static constexpr std::size_t most_entries = 50'000;
 };
 
-/// Nothing if there are faults. `notes` lists unusual entries.
+/// Nothing if there are faults. `notes` lists odd rows and what was done with them, 50 at most.
 [[nodiscard]] std::optional<Eds> read_eds(std::string_view text, std::vector<FileFault>& faults, std::vector<FileFault>& notes);
 
 /// Writes the description with these values as ParameterValue and with this commissioning as a DCF. A value that does not fit the type of

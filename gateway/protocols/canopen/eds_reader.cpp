@@ -1,8 +1,8 @@
-// EDS reader: turns sections into objects and entries, and reports all faults of a file at once. A file with faults gives no description.
+// EDS reader: turns sections into objects and entries. A row that cannot be used is left out or read by the nearest rule, with a note that
+// says which row and what was done, because makers' files are seldom without one. A file without an object is a fault.
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <bit>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -10,68 +10,10 @@
 
 #include "gateway/core/text.hpp"
 #include "gateway/protocols/canopen/eds.hpp"
+#include "gateway/protocols/canopen/eds_numbers.hpp"
 
 namespace axisgate::canopen {
 namespace {
-
-/// A number as in C: decimal, 0x hex or 0 octal, each with an optional sign. Only a comment may follow it.
-struct Number {
-    bool negative = false;
-    std::uint64_t size = 0;
-    bool hex = false;
-};
-std::optional<Number> number_of(std::string_view text) {
-    text = trimmed(text.substr(0, text.find(';')));
-    Number n;
-    if (text.starts_with('-') || text.starts_with('+')) {
-        n.negative = text[0] == '-';
-        text.remove_prefix(1);
-    }
-    int base = 10;
-    if (text.starts_with("0x") || text.starts_with("0X")) {
-        base = 16;
-        text.remove_prefix(2);
-    } else if (text.size() > 1 && text[0] == '0') {
-        base = 8;
-        text.remove_prefix(1);
-    }
-    n.hex = base == 16;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n.size, base);
-    if (error != std::errc{} || end != text.data() + text.size() || text.empty()) return std::nullopt;
-    return n;
-}
-std::optional<std::uint64_t> whole(std::string_view text, std::uint64_t most) {
-    const auto n = number_of(text);
-    if (!n || n->negative || n->size > most) return std::nullopt;
-    return n->size;
-}
-
-/// A whole number of the type. Hex digits may be the bit pattern of a negative number: 0xFFFF is -1 for an INTEGER16.
-std::optional<std::int64_t> whole_of(DataType type, std::string_view text) {
-    const auto n = number_of(text);
-    const auto range = range_of(type);
-    if (!n || !range) return std::nullopt;
-    const auto bits = *bits_of(type);
-    if (n->hex && !n->negative && is_signed(type) && n->size > static_cast<std::uint64_t>(range->max)) {
-        if (bits < 64 && n->size >> bits != 0) return std::nullopt;
-        const auto shift = 64 - bits;
-        return static_cast<std::int64_t>(n->size << shift) >> shift;
-    }
-    const std::uint64_t most = n->negative ? ~static_cast<std::uint64_t>(range->min) + 1 : static_cast<std::uint64_t>(range->max);
-    if (n->size > most) return std::nullopt;
-    return n->negative ? static_cast<std::int64_t>(~n->size + 1) : static_cast<std::int64_t>(n->size);
-}
-
-/// "$NODEID+0x180", "0x180 + $nodeid", "$NODEID".
-std::optional<std::string> without_node(std::string_view text) {
-    std::string t = lower(text);
-    const auto at = t.find("$nodeid");
-    if (at == std::string::npos) return std::nullopt;
-    t.erase(at, 7);
-    const auto plus = t.find('+');
-    if (plus != std::string::npos) t.erase(plus, 1);
-    return std::string(trimmed(t).empty() ? "0" : trimmed(t));
-}
 
 class Reader {
 public:
@@ -83,26 +25,33 @@ public:
         for (const IniSection& s : ini_.sections())
             section(s);
         for (const auto& [index, line] : listed_) {
-            if (!eds_.objects.contains(index)) fault(line, fmt::format("the object {:04X}h is listed and has no section", index));
+            if (!ini_.find(fmt::format("{:04x}", index))) note(line, fmt::format("the object {:04X}h is listed and has no section", index));
         }
-        if (eds_.objects.empty()) fault(0, "no object is described: this is no EDS");
         check_subs();
+        if (eds_.entries.empty()) fault(0, "no object is described: this is no EDS or DCF");
         commissioning();
         return std::move(eds_);
     }
 
 private:
     void fault(std::size_t line, std::string text) { add_fault(faults_, line, std::move(text)); }
-    void note(std::size_t line, std::string text) { add_fault(notes_, line, std::move(text)); }
+    void note(std::size_t line, std::string text) { add_note(notes_, line, std::move(text)); }
+    void unusual(std::size_t line, std::string_view key, std::string_view text, std::string_view read_as) {
+        note(line, fmt::format("{} is written as \"{}\": read as {}", key, shown_text(text), read_as));
+    }
 
     /// The number of a key that may be missing or empty.
     std::optional<std::uint64_t> whole_in(const IniSection& s, std::string_view key, std::uint64_t most) {
         const IniKey* k = s.find(key);
-        if (!k || k->value.empty()) return std::nullopt;
-        const auto n = whole(k->value, most);
-        if (!n)
-            fault(k->line,
-                  fmt::format("{} of [{}] is \"{}\", and must be a whole number up to {}", key, s.name, shown_text(k->value), most));
+        if (!k || without_comment(k->value).empty()) return std::nullopt;
+        const auto number = eds_number(k->value);
+        const auto n = eds_whole(k->value, most);
+        if (!n) {
+            note(k->line, fmt::format("{} of [{}] is \"{}\", and must be a whole number up to {}: left out", key, s.name,
+                                      shown_text(k->value), most));
+        } else if (number->unusual) {
+            unusual(k->line, fmt::format("{} of [{}]", key, s.name), k->value, fmt::format("{}", *n));
+        }
         return n;
     }
     static std::string text_in(const IniSection& s, std::string_view key) {
@@ -112,7 +61,7 @@ private:
 
     void device() {
         const IniSection* s = ini_.find("deviceinfo");
-        if (!s) return fault(0, "the section [DeviceInfo] is missing: this is no EDS or DCF");
+        if (!s) return note(0, "the section [DeviceInfo] is missing: maker and product are not known");
         eds_.vendor = text_in(*s, "vendorname");
         eds_.product = text_in(*s, "productname");
         eds_.order_code = text_in(*s, "ordercode");
@@ -137,10 +86,11 @@ private:
             std::size_t count = 0;
             for (const IniKey& k : s->keys) {
                 if (k.name == "supportedobjects") continue;
-                const auto index = whole(k.value, 0xFFFF);
+                if (without_comment(k.value).empty()) continue;
+                const auto index = eds_whole(k.value, 0xFFFF);
                 ++count;
                 if (!index) {
-                    fault(k.line, fmt::format("\"{}\" is no index of an object", shown_text(k.value)));
+                    note(k.line, fmt::format("\"{}\" is no index of an object: left out", shown_text(k.value)));
                 } else if (!listed_.emplace(static_cast<std::uint16_t>(*index), k.line).second) {
                     note(k.line, fmt::format("the object {:04X}h is listed twice", *index));
                 }
@@ -164,13 +114,11 @@ private:
             const std::string_view number = rest.substr(3);
             const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), sub, 16);
             if (error != std::errc{} || end != number.data() + number.size() || sub > 0xFF)
-                return fault(s.line, fmt::format("\"{}\" is no subindex: two hex digits are the most", shown_text(number)));
+                return note(s.line, fmt::format("[{}]: \"{}\" is no subindex (two hex digits): left out", s.name, shown_text(number)));
             const IniSection* object = ini_.find(s.name.substr(0, 4));
-            if (!object) return fault(s.line, fmt::format("[{}] has no object [{}]", s.name, s.name.substr(0, 4)));
-            const auto shape = whole(text_in(*object, "objecttype"), 0xFF).value_or(7);
-            if (is_definition(shape)) return;
-            if (shape == 2 || shape == 7)
-                return fault(s.line, fmt::format("[{}]: {:04X}h is a variable and has no subindices", s.name, index));
+            if (object && is_definition(eds_whole(text_in(*object, "objecttype"), 0xFF).value_or(7))) return;
+            if (!object && eds_.objects.try_emplace(index, EdsObject{"", EdsShape::record}).second)
+                note(s.line, fmt::format("[{}] has no object [{}]: read as a record without a name", s.name, s.name.substr(0, 4)));
             entry(s, {index, static_cast<std::uint8_t>(sub)});
         }
     }
@@ -179,11 +127,15 @@ private:
     static bool is_definition(std::uint64_t shape) { return shape == 5 || shape == 6; }
 
     void object(const IniSection& s, std::uint16_t index) {
-        const auto shape = whole_in(s, "objecttype", 0xFF).value_or(7);
         if (!listed_.contains(index)) note(s.line, fmt::format("the object {:04X}h stands in no list of objects", index));
+        const bool has_type = s.find("datatype") != nullptr;
+        const EdsShape by_type = has_type ? EdsShape::variable : EdsShape::record;
+        auto shape = whole_in(s, "objecttype", 0xFF).value_or(static_cast<std::uint64_t>(by_type));
         if (is_definition(shape)) return;
-        if (shape != 2 && shape != 7 && shape != 8 && shape != 9)
-            return fault(s.line, fmt::format("ObjectType {} of {:04X}h is none: 2 domain, 7 variable, 8 array, 9 record", shape, index));
+        if (shape != 2 && shape != 7 && shape != 8 && shape != 9) {
+            shape = static_cast<std::uint64_t>(by_type);
+            note(s.line, fmt::format("ObjectType of {:04X}h is none (2 domain, 7 variable, 8 array, 9 record): read as {}", index, shape));
+        }
         eds_.objects[index] = {text_in(s, "parametername"), static_cast<EdsShape>(shape)};
         if (shape == 2 || shape == 7) {
             entry(s, {index, 0});
@@ -221,7 +173,7 @@ private:
             return false;
         }
         const auto [at, fresh] = eds_.entries.emplace(address, std::move(e));
-        if (!fresh) fault(line, fmt::format("{} is described twice", to_text(at->first)));
+        if (!fresh) note(line, fmt::format("{} is described twice: the first description counts", to_text(at->first)));
         return true;
     }
 
@@ -230,41 +182,51 @@ private:
     }
 
     std::optional<EdsEntry> described(const IniSection& s, Address address) {
-        const std::size_t before = faults_.size();
         EdsEntry e;
         e.line = s.line;
         e.name = text_in(s, "parametername");
-        const bool domain = whole(text_in(s, "objecttype"), 0xFF) == 2u;
-        const IniKey* type = s.find("datatype");
-        const auto number = type ? whole(type->value, 0xFFFF) : std::nullopt;
-        const auto known_type = number ? data_type_of(*number) : std::nullopt;
-        if (known_type) {
-            e.type = *known_type;
-        } else if (domain) {
-            e.type = DataType::domain;
-        } else if (!type || type->value.empty()) {
-            fault(s.line, fmt::format("{} has no DataType", to_text(address)));
-        } else {
-            fault(type->line,
-                  fmt::format("DataType \"{}\" of {} is none of CiA 301's simple types", shown_text(type->value), to_text(address)));
-        }
+        const auto type = type_of(s, address);
+        if (!type) return std::nullopt;
+        e.type = *type;
         const IniKey* access = s.find("accesstype");
-        if (access && !access->value.empty()) {
-            const auto known_access = entry_access_named(lower(access->value));
-            if (known_access) {
-                e.access = *known_access;
-            } else {
-                fault(access->line, fmt::format("AccessType \"{}\" of {} is none: ro, wo, rw, rwr, rww or const", shown_text(access->value),
-                                                to_text(address)));
-            }
-        } else if (!domain) {
-            fault(s.line, fmt::format("{} has no AccessType", to_text(address)));
+        const std::string word = access ? lower(without_comment(access->value)) : std::string();
+        if (const auto known_access = entry_access_named(word)) {
+            e.access = *known_access;
+        } else if (!word.empty()) {
+            e.access = EntryAccess::read_only;
+            note(access->line, fmt::format("AccessType \"{}\" of {} is none (ro, wo, rw, rwr, rww or const): read as ro",
+                                           shown_text(access->value), to_text(address)));
+        } else if (e.type != DataType::domain) {
+            e.access = EntryAccess::read_only;
+            note(s.line, fmt::format("{} has no AccessType: read as ro", to_text(address)));
         }
         e.mappable = whole_in(s, "pdomapping", 1) == 1u;
         e.flags = static_cast<std::uint32_t>(whole_in(s, "objflags", UINT32_MAX).value_or(0));
-        if (faults_.size() != before) return std::nullopt;
         limits(s, address, e);
-        return faults_.size() == before ? std::optional(std::move(e)) : std::nullopt;
+        return e;
+    }
+
+    /// Nothing if the section does not say it.
+    std::optional<DataType> type_of(const IniSection& s, Address address) {
+        const bool domain = eds_whole(text_in(s, "objecttype"), 0xFF) == 2u;
+        const IniKey* key = s.find("datatype");
+        const std::string_view word = key ? without_comment(key->value) : std::string_view();
+        const auto number = eds_whole(word, 0xFFFF);
+        if (const auto type = number ? data_type_of(*number) : std::nullopt) return type;
+        if (domain) return DataType::domain;
+        if (word.empty()) {
+            note(s.line, fmt::format("{} has no DataType: left out", to_text(address)));
+            return std::nullopt;
+        }
+        for (std::uint64_t n = 1; n <= 0x1B && !number; ++n) {
+            const auto type = data_type_of(n);
+            if (!type || lower(name_of(*type)) != lower(word)) continue;
+            unusual(key->line, fmt::format("DataType of {}", to_text(address)), word, fmt::format("{}", n));
+            return type;
+        }
+        note(key->line,
+             fmt::format("DataType \"{}\" of {} is none of CiA 301's simple types: read as bytes", shown_text(word), to_text(address)));
+        return DataType::octet_string;
     }
 
     void limits(const IniSection& s, Address address, EdsEntry& e) {
@@ -281,7 +243,8 @@ private:
         const auto low = as_number(e.low.value), high = as_number(e.high.value), usual = as_number(e.fallback.value);
         const bool plain = !e.low.plus_node && !e.high.plus_node && !e.fallback.plus_node;
         if (low && high && plain && *low > *high) {
-            fault(s.line, fmt::format("LowLimit of {} is above its HighLimit", to_text(address)));
+            note(s.line, fmt::format("LowLimit of {} is above its HighLimit: both are left out", to_text(address)));
+            e.low = e.high = {};
         } else if (usual && plain && ((low && *usual < *low) || (high && *usual > *high))) {
             note(s.line, fmt::format("DefaultValue of {} is outside its limits", to_text(address)));
         }
@@ -291,31 +254,38 @@ private:
     EdsValue value(const IniKey& k, DataType type, Address address, std::string_view what) {
         EdsValue v;
         if (k.value.empty() || type == DataType::domain) return v;
-        const auto rest = without_node(k.value);
+        const bool words = type == DataType::visible_string;
+        if (!words && without_comment(k.value).empty()) return v;
+        const auto rest = words ? std::nullopt : without_node(k.value);
         const std::string_view text = rest ? std::string_view(*rest) : std::string_view(k.value);
+        const auto left_out = [&] {
+            note(k.line, fmt::format("{} \"{}\" of {} is no {}: left out", what, shown_text(k.value), to_text(address), name_of(type)));
+            return EdsValue{};
+        };
         v.plus_node = rest.has_value();
         if (const auto range = range_of(type)) {
-            if (const auto n = whole_of(type, text); n && (!v.plus_node || *n <= range->max - 127)) {
+            const auto number = eds_number(text);
+            const auto n = number ? eds_whole_of(type, *number) : std::nullopt;
+            if (n && (!v.plus_node || (type != DataType::boolean && *n <= range->max - 127))) {
                 v.value = type == DataType::boolean ? Value{*n != 0} : Value{*n};
-                if (!v.plus_node || type != DataType::boolean) return v;
+                if (number->unusual) unusual(k.line, fmt::format("{} of {}", what, to_text(address)), k.value, fmt::format("{}", *n));
+                return v;
             }
             // A bound at an end of the type that a Value cannot hold is ignored.
-            const auto large = number_of(text);
-            if (type == DataType::unsigned64 && large && !large->negative && !v.plus_node) {
+            if (type == DataType::unsigned64 && number && !number->negative && !v.plus_node) {
                 note(k.line, fmt::format("{} of {} is above 2^63 - 1 and left out", what, to_text(address)));
                 return {};
             }
-            fault(k.line, fmt::format("{} \"{}\" of {} is no {}", what, shown_text(k.value), to_text(address), name_of(type)));
-            return {};
+            return left_out();
         }
         if (v.plus_node) {
-            fault(k.line,
-                  fmt::format("{} \"{}\" of {}: only whole numbers hang on the node number", what, shown_text(k.value), to_text(address)));
+            note(k.line, fmt::format("{} \"{}\" of {}: only whole numbers hang on the node number; left out", what, shown_text(k.value),
+                                     to_text(address)));
             return {};
         }
         if (type == DataType::real32 || type == DataType::real64) {
-            const auto bits = number_of(text);
-            const auto decimal = parse_number(text);
+            const auto bits = eds_number(text);
+            const auto decimal = parse_number(without_comment(text));
             if (bits && bits->hex && !bits->negative) {
                 std::vector<std::uint8_t> raw(*bytes_of(type));
                 put_low_first(bits->size, raw);
@@ -329,14 +299,13 @@ private:
                 v.value = *decode(type, *encode(type, Value{*decimal}));
                 return v;
             }
-            fault(k.line, fmt::format("{} \"{}\" of {} is no {}", what, shown_text(k.value), to_text(address), name_of(type)));
-            return {};
+            return left_out();
         }
-        if (type == DataType::visible_string) {
+        if (words) {
             v.value = k.value;
             return v;
         }
-        std::string_view hex = k.value;
+        std::string_view hex = without_comment(k.value);
         if (hex.starts_with("0x") || hex.starts_with("0X")) hex.remove_prefix(2);
         const auto bytes = from_hex(hex);
         if (bytes && decode(type, *bytes)) {
@@ -349,17 +318,26 @@ private:
     }
 
     void check_subs() {
-        for (const auto& [index, object] : eds_.objects) {
-            if (object.shape != EdsShape::array && object.shape != EdsShape::record) continue;
+        for (auto it = eds_.objects.begin(); it != eds_.objects.end();) {
+            auto& [index, object] = *it;
             const IniSection* s = ini_.find(fmt::format("{:04x}", index));
-            auto it = eds_.entries.lower_bound({index, 0});
             std::size_t count = 0;
-            for (; it != eds_.entries.end() && it->first.index == index; ++it)
+            for (auto e = eds_.entries.lower_bound({index, 0}); e != eds_.entries.end() && e->first.index == index; ++e)
                 ++count;
-            if (count == 0 && faults_.empty()) fault(s->line, fmt::format("{:04X}h is an array or a record without subindices", index));
-            const auto stated = whole_in(*s, "subnumber", 0xFF);
-            if (stated && count != 0 && *stated != count && faults_.empty() && whole_in(*s, "compactsubobj", 254).value_or(0) == 0)
+            const bool listing = object.shape == EdsShape::array || object.shape == EdsShape::record;
+            if (count == 0) {
+                note(s ? s->line : 0, fmt::format("{:04X}h has no entry that can be read: left out", index));
+                it = eds_.objects.erase(it);
+                continue;
+            }
+            if (!listing && std::prev(eds_.entries.upper_bound({index, 0xFF}))->first.sub != 0) {
+                note(s->line, fmt::format("{:04X}h is a variable with subindices: read as a record", index));
+                object.shape = EdsShape::record;
+            }
+            const auto stated = s && listing ? whole_in(*s, "subnumber", 0xFF) : std::nullopt;
+            if (stated && *stated != count && whole_in(*s, "compactsubobj", 254).value_or(0) == 0)
                 note(s->line, fmt::format("{:04X}h tells {} subindices and has {}", index, *stated, count));
+            ++it;
         }
     }
 
@@ -369,8 +347,8 @@ private:
         if (!s) return;
         Commissioning c;
         const auto node = whole_in(*s, "nodeid", last_node);
-        if (!node || *node == 0) return fault(s->line, "NodeID of [DeviceComissioning] must be 1 to 127");
-        c.node = static_cast<std::uint8_t>(*node);
+        if (!node || *node == 0) note(s->line, "NodeID of [DeviceComissioning] is missing, or not 1 to 127: left out");
+        c.node = static_cast<std::uint8_t>(node.value_or(0));
         c.node_name = text_in(*s, "nodename");
         c.kbit = static_cast<std::uint32_t>(whole_in(*s, "baudrate", 1000).value_or(0));
         eds_.commissioning = c;
@@ -388,7 +366,7 @@ private:
 
 std::optional<Eds> read_eds(std::string_view text, std::vector<FileFault>& faults, std::vector<FileFault>& notes) {
     const std::size_t before = faults.size();
-    const auto ini = Ini::read(text, faults);
+    const auto ini = Ini::read(text, faults, notes);
     if (!ini) return std::nullopt;
     Eds eds = Reader(*ini, faults, notes).read();
     if (faults.size() != before) return std::nullopt;

@@ -37,6 +37,12 @@ std::string shown_text(std::string_view text) {
     return as_utf8(text.substr(0, end)) + "...";
 }
 
+void add_note(std::vector<FileFault>& notes, std::size_t line, std::string text) {
+    if (notes.size() > most_file_faults) return;
+    if (notes.size() == most_file_faults) text = "there are more notes";
+    notes.push_back({line, std::move(text)});
+}
+
 bool add_fault(std::vector<FileFault>& faults, std::size_t line, std::string text) {
     if (faults.size() > most_file_faults) return false;
     if (faults.size() == most_file_faults) {
@@ -56,7 +62,17 @@ const IniSection* Ini::find(std::string_view name) const {
     return it == places_.end() ? nullptr : &sections_[it->second];
 }
 
-std::optional<Ini> Ini::read(std::string_view text, std::vector<FileFault>& faults) {
+namespace {
+/// Takes the next line off the text. LF, CR LF or CR alone end it.
+std::string_view next_row(std::string_view& text) {
+    const auto end = std::min(text.find_first_of("\r\n"), text.size());
+    const std::string_view row = text.substr(0, end);
+    text.remove_prefix(std::min(text.size(), end + (text.substr(end).starts_with("\r\n") ? 2 : 1)));
+    return trimmed(row);
+}
+}  // namespace
+
+std::optional<Ini> Ini::read(std::string_view text, std::vector<FileFault>& faults, std::vector<FileFault>& notes) {
     const std::size_t before = faults.size();
     if (text.size() > most_bytes) {
         add_fault(faults, 0, fmt::format("the file has {} bytes, and {} are the most", text.size(), most_bytes));
@@ -66,51 +82,49 @@ std::optional<Ini> Ini::read(std::string_view text, std::vector<FileFault>& faul
     Ini ini;
     std::unordered_set<std::string> names;  // names of the keys of the present section
     std::size_t line = 0, keys = 0;
-    while (!text.empty()) {
+    bool again = false;  // the present section stands twice: its keys are left out
+    while (!text.empty() && faults.size() == before) {
         ++line;
-        const auto end = text.find('\n');
-        std::string_view row = text.substr(0, end);
-        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-        if (row.ends_with('\r')) row.remove_suffix(1);
-        row = trimmed(row);
+        const std::string_view row = next_row(text);
         if (row.empty() || row[0] == ';' || row[0] == '#') continue;
         if (row[0] == '[') {
             const auto close = row.find(']');
-            if (close == std::string_view::npos) {
-                if (!add_fault(faults, line, fmt::format("\"{}\" begins a section and has no ]", shown_text(row)))) break;
-                continue;
-            }
+            const std::string name = lower(trimmed(row.substr(1, std::min(close, row.find(';')) - 1)));
+            if (close == std::string_view::npos)
+                add_note(notes, line, fmt::format("\"{}\" begins a section and has no ]: read as [{}]", shown_text(row), shown_text(name)));
             if (ini.sections_.size() == most_sections) {
                 add_fault(faults, line, fmt::format("more than {} sections: this is no description of a drive", most_sections));
                 break;
             }
-            std::string name = lower(trimmed(row.substr(1, close - 1)));
             const auto [place, fresh] = ini.places_.emplace(name, ini.sections_.size());
-            if (!fresh && !add_fault(faults, line,
-                                     fmt::format("the section [{}] stands twice, first in line {}", shown_text(name),
-                                                 ini.sections_[place->second].line)))
-                break;
-            ini.sections_.push_back({std::move(name), line, {}});
-            names.clear();
+            again = !fresh;
+            if (again) {
+                add_note(notes, line,
+                         fmt::format("the section [{}] stands twice, first in line {}: the second one is left out", shown_text(name),
+                                     ini.sections_[place->second].line));
+            } else {
+                ini.sections_.push_back({name, line, {}});
+                names.clear();
+            }
             continue;
         }
         const auto equals = row.find('=');
         const std::string name = lower(trimmed(row.substr(0, equals)));
-        std::string what;
         if (equals == std::string_view::npos || name.empty()) {
-            what = fmt::format("\"{}\" is neither a section nor a key with a value", shown_text(row));
+            add_note(notes, line, fmt::format("\"{}\" is neither a section nor a key with a value: left out", shown_text(row)));
         } else if (ini.sections_.empty()) {
-            what = fmt::format("the key {} stands before the first section", shown_text(name));
+            add_note(notes, line, fmt::format("the key {} stands before the first section: left out", shown_text(name)));
+        } else if (again) {
+            continue;
         } else if (!names.insert(name).second) {
-            what = fmt::format("the key {} stands twice in [{}]", shown_text(name), shown_text(ini.sections_.back().name));
+            add_note(notes, line,
+                     fmt::format("the key {} stands twice in [{}]: the first one counts", shown_text(name),
+                                 shown_text(ini.sections_.back().name)));
         } else if (++keys > most_keys) {
             add_fault(faults, line, fmt::format("more than {} keys: this is no description of a drive", most_keys));
-            break;
         } else {
             ini.sections_.back().keys.push_back({name, std::string(trimmed(as_utf8(row.substr(equals + 1)))), line});
-            continue;
         }
-        if (!add_fault(faults, line, std::move(what))) break;
     }
     if (faults.size() != before) return std::nullopt;
     return ini;

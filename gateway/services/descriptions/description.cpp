@@ -118,6 +118,33 @@ std::shared_ptr<const json::object> facts(const Description& d, const Read& read
                                                              {"warnings", std::move(warnings)}});
 }
 
+json::array objects_of(const Read& read) {
+    json::array out;
+    if (!read.eds) return out;
+    const auto shown = [](const canopen::EdsValue& v) -> json::value {
+        if (!v.given()) return nullptr;
+        const std::string text = to_text(v.value);
+        return v.plus_node ? json::value("$NODEID + " + text) : json::value(text);
+    };
+    for (const auto& [at, e] : read.eds->entries) {
+        const auto object = read.eds->objects.find(at.index);
+        const bool alone = object == read.eds->objects.end() || object->second.shape == canopen::EdsShape::variable ||
+                           object->second.shape == canopen::EdsShape::domain;
+        out.push_back(json::object{{"object", alone ? fmt::format("{:04X}h", at.index) : canopen::to_text(at)},
+                                   {"of", alone ? json::value() : text_or_null(object->second.name)},
+                                   {"name", text_or_null(e.name)},
+                                   {"type", canopen::name_of(e.type)},
+                                   {"access", canopen::name_of(e.access)},
+                                   {"mappable", e.mappable},
+                                   {"low", shown(e.low)},
+                                   {"high", shown(e.high)},
+                                   {"default", shown(e.fallback)},
+                                   {"configured", shown(e.configured)},
+                                   {"line", e.line == 0 ? json::value() : json::value(e.line)}});
+    }
+    return out;
+}
+
 Dcf dcf_of(const Eds& eds, const Catalogue& catalogue, const AxisSnapshot& snapshot, std::uint8_t node, std::string_view node_name,
            std::uint32_t bit_rate) {
     Dcf out;

@@ -38,6 +38,10 @@ struct Read {
 /// Name, vendor, product, ..., PDO mapping, warnings; null if there are faults.
 [[nodiscard]] std::shared_ptr<const boost::json::object> facts(const Description& d, const Read& read);
 
+/// Its objects in order of index: number, name, type, access, limits, default, value of a DCF, and the line in the file. Empty if there are
+/// faults.
+[[nodiscard]] boost::json::array objects_of(const Read& read);
+
 /// A DCF of one drive: its description with the values of a snapshot. `left_out` is the number of values that a DCF of this description
 /// cannot contain.
 struct Dcf {

@@ -72,6 +72,10 @@ json::object DescriptionFiles::document(const Description& description) const {
     return description_document(description, users_of(description.name));
 }
 
+json::array DescriptionFiles::objects(const Description& description) {
+    return descriptions::objects_of(descriptions::read(description.text));
+}
+
 json::array DescriptionFiles::list() const {
     json::array out;
     for (const auto& [name, d] : ports_.get<DescriptionPort>().descriptions().all()) {

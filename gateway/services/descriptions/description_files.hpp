@@ -31,6 +31,7 @@ public:
     [[nodiscard]] boost::json::array list() const;
     [[nodiscard]] std::shared_ptr<const Description> find(std::string_view name) const;
     [[nodiscard]] boost::json::object document(const Description& description) const;
+    [[nodiscard]] static boost::json::array objects(const Description& description);
 
     struct Added {
         std::string name;

@@ -112,67 +112,113 @@ TEST(EdsFiles, ADcfByHand) {
 const std::string head = "[DeviceInfo]\nVendorName=x\n[MandatoryObjects]\n1=0x1000\n";  // four lines
 std::string object(std::string_view keys) { return head + "[1000]\nParameterName=a\n" + std::string(keys); }
 
-struct FaultCase {
+struct NoteCase {
     std::string text;
     std::size_t line;
     std::string words;
 };
-TEST(EdsFaults, EachIsToldWithItsLine) {
+/// Each odd row of a file is a note with its line that says what was done; the file is read all the same.
+TEST(EdsNotes, AnOddRowIsToldAndTheFileIsRead) {
     const std::string good = "DataType=7\nAccessType=ro\n";
-    const FaultCase cases[] = {
-        {"", 0, "the section [DeviceInfo] is missing"},
-        {"just words\n", 1, "\"just words\" is neither a section nor a key"},
-        {"a=1\n", 1, "the key a stands before the first section"},
-        {head + "[1000\n", 5, "has no ]"},
-        {head + "=5\n", 5, "neither a section nor a key"},
-        {head + "[DEVICEINFO]\n", 5, "the section [deviceinfo] stands twice, first in line 1"},
-        {object(good + "datatype=6\n"), 9, "the key datatype stands twice in [1000]"},
-        {head, 4, "the object 1000h is listed and has no section"},
-        {"[DeviceInfo]\nVendorName=x\n[MandatoryObjects]\n1=soon\n", 4, "\"soon\" is no index of an object"},
+    const std::string whole = object(good);  // eight lines
+    const NoteCase cases[] = {
+        {whole + "just words\n", 9, "\"just words\" is neither a section nor a key with a value: left out"},
+        {"a=1\n" + whole, 1, "the key a stands before the first section: left out"},
+        {whole + "=5\n", 9, "neither a section nor a key"},
+        {head + "[1000 ; device type\nParameterName=a\n" + good, 5, "has no ]: read as [1000]"},
+        {whole + "[DEVICEINFO]\nVendorName=y\n", 9, "the section [deviceinfo] stands twice, first in line 1: the second one is left out"},
+        {object(good + "datatype=6\n"), 9, "the key datatype stands twice in [1000]: the first one counts"},
+        {"[1000]\nParameterName=a\n" + good, 0, "the section [DeviceInfo] is missing"},
+        {whole + "[OptionalObjects]\n1=0x2000\n", 10, "the object 2000h is listed and has no section"},
+        {whole + "[OptionalObjects]\n1=soon\n", 10, "\"soon\" is no index of an object: left out"},
+        {whole + "[OptionalObjects]\n1=0x1000\n", 10, "the object 1000h is listed twice"},
+        {whole + "[OptionalObjects]\nSupportedObjects=4\n", 9, "tells 4 objects and lists 0"},
         {"[DeviceInfo]\nProductNumber=many\n[1000]\n" + good, 2, "productnumber of [deviceinfo] is \"many\""},
-        {object("AccessType=ro\n"), 5, "1000h:00 has no DataType"},
-        {object("DataType=0x23\nAccessType=ro\n"), 7, "DataType \"0x23\" of 1000h:00 is none of CiA 301's simple types"},
-        {object("DataType=INTEGER32\nAccessType=ro\n"), 7, "DataType \"INTEGER32\""},
-        {object("DataType=7\n"), 5, "1000h:00 has no AccessType"},
+        {whole + "[2000]\nAccessType=ro\nObjectType=7\n", 9, "2000h:00 has no DataType: left out"},
+        {object("DataType=0x23\nAccessType=ro\n"), 7, "DataType \"0x23\" of 1000h:00 is none of CiA 301's simple types: read as bytes"},
+        {object("DataType=0x40 ; ours\nAccessType=ro\n"), 7, "DataType \"0x40\" of 1000h:00"},
+        {object("DataType=integer32\nAccessType=ro\n"), 7, "DataType of 1000h:00 is written as \"integer32\": read as 4"},
+        {object("DataType=7\n"), 5, "1000h:00 has no AccessType: read as ro"},
         {object("DataType=7\nAccessType=always\n"), 8, "AccessType \"always\" of 1000h:00 is none"},
-        {object(good + "DefaultValue=five\n"), 9, "DefaultValue \"five\" of 1000h:00 is no UNSIGNED32"},
-        {object(good + "DefaultValue=-1\n"), 9, "is no UNSIGNED32"},
+        {object(good + "DefaultValue=five\n"), 9, "DefaultValue \"five\" of 1000h:00 is no UNSIGNED32: left out"},
+        {object(good + "DefaultValue=-1\n"), 9, "is no UNSIGNED32: left out"},
         {object(good + "DefaultValue=0x1FFFFFFFF\n"), 9, "is no UNSIGNED32"},
-        {object(good + "DefaultValue=08\n"), 9, "is no UNSIGNED32"},
+        {object(good + "DefaultValue=08\n"), 9, "DefaultValue of 1000h:00 is written as \"08\": read as 8"},
+        {object(good + "DefaultValue=10UL\n"), 9, "is written as \"10UL\": read as 10"},
+        {object(good + "DefaultValue=100 ms\n"), 9, "is written as \"100 ms\": read as 100"},
+        {object(good + "DefaultValue=100.0\n"), 9, "is written as \"100.0\": read as 100"},
+        {object(good + "DefaultValue=1Fh\n"), 9, "is written as \"1Fh\": read as 31"},
+        {object(good + "DefaultValue=0x1Fh\n"), 9, "is written as \"0x1Fh\": read as 31"},
+        {object(good + "DefaultValue=1.5\n"), 9, "is no UNSIGNED32"},
         {object("DataType=3\nAccessType=ro\nDefaultValue=0x10000\n"), 9, "is no INTEGER16"},
         {object("DataType=3\nAccessType=ro\nDefaultValue=32768\n"), 9, "is no INTEGER16"},
         {object("DataType=8\nAccessType=ro\nDefaultValue=1e99\n"), 9, "is no REAL32"},
         {object("DataType=8\nAccessType=ro\nDefaultValue=0x7F800000\n"), 9, "is no REAL32"},
-        {object("DataType=9\nAccessType=ro\nDefaultValue=$NODEID\n"), 9, "only whole numbers hang on the node number"},
-        {object(good + "LowLimit=5\nHighLimit=4\n"), 5, "LowLimit of 1000h:00 is above its HighLimit"},
+        {object("DataType=8\nAccessType=ro\nDefaultValue=$NODEID+1\n"), 9, "only whole numbers hang on the node number"},
+        {object(good + "LowLimit=5\nHighLimit=4\n"), 5, "LowLimit of 1000h:00 is above its HighLimit: both are left out"},
+        {object("DataType=4\nAccessType=ro\nLowLimit=0\nHighLimit=0xFFFFFFFF\n"), 5, "above its HighLimit: both are left out"},
+        {object(good + "HighLimit=-1\n"), 9, "HighLimit \"-1\" of 1000h:00 is no UNSIGNED32: left out"},
         {object(good + "PDOMapping=2\n"), 9, "pdomapping of [1000] is \"2\""},
-        {object(good + "ObjectType=3\n"), 5, "ObjectType 3 of 1000h is none"},
-        {object("ObjectType=8\nSubNumber=1\n"), 5, "1000h is an array or a record without subindices"},
-        {object("ObjectType=8\nCompactSubObj=255\n" + good), 8, "must be a whole number up to 254"},
-        {object(good) + "[1001sub0]\n" + good, 9, "[1001sub0] has no object [1001]"},
-        {object(good) + "[1000sub100]\n" + good, 9, "\"100\" is no subindex"},
-        {object(good) + "[1000sub1]\n" + good, 9, "[1000sub1]: 1000h is a variable and has no subindices"},
+        {object(good + "ObjectType=3\n"), 5, "ObjectType of 1000h is none (2 domain, 7 variable, 8 array, 9 record): read as 7"},
+        {whole + "[2000]\nObjectType=8\nSubNumber=1\n", 9, "2000h has no entry that can be read: left out"},
+        {whole + "[2000]\nObjectType=8\nCompactSubObj=255\n" + good, 11, "must be a whole number up to 254"},
+        {whole + "[1001sub0]\n" + good, 9, "[1001sub0] has no object [1001]: read as a record without a name"},
+        {whole + "[1000sub100]\n" + good, 9, "\"100\" is no subindex (two hex digits): left out"},
+        {whole + "[1000sub1]\n" + good, 5, "1000h is a variable with subindices: read as a record"},
         {object("ObjectType=8\nCompactSubObj=1\n" + good) + "[1000sub1]\n" + good, 11, "1000h:01 is described twice"},
-        {object(good) + "[DeviceComissioning]\nNodeID=0\n", 9, "NodeID of [DeviceComissioning] must be 1 to 127"},
+        {whole + "[DeviceComissioning]\nNodeID=0\n", 9, "NodeID of [DeviceComissioning] is missing, or not 1 to 127: left out"},
+        {whole + "[DeviceCommissioning]\nNodeName=x\n", 9, "NodeID of [DeviceComissioning] is missing"},
     };
     for (const auto& c : cases) {
         const Read r(c.text);
-        EXPECT_FALSE(r.eds) << c.words;
-        ASSERT_FALSE(r.faults.empty()) << c.words;
-        EXPECT_EQ(r.faults[0].line, c.line) << c.words << "\n" << r.all();
-        EXPECT_THAT(r.faults[0].text, HasSubstr(c.words)) << r.all();
+        ASSERT_TRUE(r.eds) << c.words << "\n" << r.all();
+        EXPECT_FALSE(r.eds->entries.empty());
+        const auto told = std::ranges::find_if(r.notes, [&](const FileFault& n) { return n.text.find(c.words) != std::string::npos; });
+        ASSERT_NE(told, r.notes.end()) << c.words << "\n" << r.noted();
+        EXPECT_EQ(told->line, c.line) << c.words;
     }
-    EXPECT_TRUE(Read(object(good)).eds) << "what all of them are made of is good";
+    const Read r(whole);
+    EXPECT_TRUE(r.eds && r.notes.empty()) << "all of them are made of a good one: " << r.noted();
 }
-TEST(EdsFaults, AllAreToldAtOnceUpToABound) {
-    const Read two(object("DataType=99\nAccessType=x\n"));
-    EXPECT_EQ(two.faults.size(), 2u) << two.all();
-    std::string text = head + "[1000]\nDataType=7\nAccessType=ro\n";
+TEST(EdsNotes, RowsOfMakersThatNeedNone) {
+    // CR alone, comments behind words and numbers, empty keys, NODEID without its sign.
+    std::string text = head + "[1000]\nParameterName=a\nDataType=7 ; UNSIGNED32\nAccessType=RW ; and more\nLowLimit=\nHighLimit= ; none\n"
+                              "DefaultValue=;\nPDOMapping=\n[2000]\nDataType=7\nAccessType=ro\nDefaultValue=NodeID + 0x10\n"
+                              "[OptionalObjects]\nSupportedObjects=1\n1=0x2000\n2=\n";
+    const Read usual(text);
+    std::ranges::replace(text, '\n', '\r');
+    const Read r(text);
+    ASSERT_TRUE(r.eds && usual.eds) << r.all();
+    EXPECT_EQ(r.noted(), "");
+    EXPECT_TRUE(*r.eds == *usual.eds);
+    const EdsEntry& e = r.eds->entries.at({0x1000, 0});
+    EXPECT_EQ(e.type, DataType::unsigned32);
+    EXPECT_EQ(e.access, EntryAccess::read_write);
+    EXPECT_FALSE(e.fallback.given() || e.low.given() || e.high.given()) << "an empty value is none";
+    EXPECT_EQ(r.eds->entries.at({0x2000, 0}).fallback.of(5), number(0x15));
+}
+TEST(EdsNotes, OfADuplicateTheFirstCounts) {
+    const Read r(object("DataType=7\nAccessType=ro\nDefaultValue=1\nDefaultValue=2\n[1000]\nDataType=3\nDefaultValue=3\n"));
+    ASSERT_TRUE(r.eds);
+    EXPECT_EQ(r.eds->entries.at({0x1000, 0}).type, DataType::unsigned32);
+    EXPECT_EQ(r.eds->entries.at({0x1000, 0}).fallback.value, number(1));
+}
+TEST(EdsNotes, HaveABound) {
+    std::string text = object("DataType=7\nAccessType=ro\n");
     for (int i = 0; i < 5000; ++i)
         text += "words\n";
     const Read many(text);
-    EXPECT_EQ(many.faults.size(), most_file_faults + 1);
-    EXPECT_EQ(many.faults.back().text, "there are more faults: mend these first");
+    EXPECT_TRUE(many.eds);
+    EXPECT_EQ(many.notes.size(), most_file_faults + 1);
+    EXPECT_EQ(many.notes.back().text, "there are more notes");
+}
+TEST(EdsFaults, AFileWithoutAnObjectIsNone) {
+    for (const std::string& text : {std::string(), std::string("just words\n"), head, std::string("\0\1\2", 3)}) {
+        const Read r(text);
+        EXPECT_FALSE(r.eds);
+        ASSERT_EQ(r.faults.size(), 1u);
+        EXPECT_EQ(r.faults[0].text, "no object is described: this is no EDS or DCF");
+    }
 }
 TEST(EdsFaults, AMegabyteOfSectionsIsRefusedInWords) {
     std::string text = head;

@@ -59,16 +59,23 @@ TEST_F(Descriptions, ABodyOfJsonDoesTheSameAndTheSameFileTwiceIsNoConflict) {
     EXPECT_EQ(gateway.shelf.find("a.eds")->text, servo);
 }
 
-TEST_F(Descriptions, WhatIsWrongIsToldWithItsLineAndNothingIsKept) {
-    auto broken = servo;
-    const auto at = broken.find("DataType=0x0006");
+TEST_F(Descriptions, OddRowsAreWarningsAndTheObjectsCanBeLookedAt) {
+    auto odd = servo;
+    const auto at = odd.find("DataType=0x0006");
     ASSERT_NE(at, std::string::npos);
-    const auto line = std::count(broken.begin(), broken.begin() + static_cast<std::ptrdiff_t>(at), '\n') + 1;
-    broken.replace(at, 15, "DataType=0x0999");
-    const auto refused = post("?name=a.eds", broken);
-    EXPECT_EQ(refused.status, 422u);
-    EXPECT_THAT(std::string(refused.fault().at("text").as_string()),
-                testing::AllOf(testing::HasSubstr("line " + std::to_string(line) + ":"), testing::HasSubstr("0x0999")));
+    const auto line = std::count(odd.begin(), odd.begin() + static_cast<std::ptrdiff_t>(at), '\n') + 1;
+    odd.replace(at, 15, "DataType=0x0999");
+    const auto added = post("?name=a.eds", odd);
+    ASSERT_EQ(added.status, 201u);
+    EXPECT_THAT(added.at("warnings"), testing::HasSubstr("\"line\":" + std::to_string(line) + ",\"text\":\"DataType \\\"0x0999\\\""));
+    const auto objects = call("GET", "/api/v1/descriptions/a.eds/objects");
+    EXPECT_EQ(objects.status, 200u);
+    EXPECT_THAT(objects.text, testing::HasSubstr(R"("object":"1000h")"));
+    EXPECT_THAT(objects.text, testing::HasSubstr(R"("$NODEID + )"));
+    EXPECT_EQ(call("GET", "/api/v1/descriptions/b.eds/objects").status, 404u);
+}
+
+TEST_F(Descriptions, WhatIsWrongIsToldWithItsLineAndNothingIsKept) {
     EXPECT_EQ(post("?name=a.eds", "").status, 422u);
     EXPECT_EQ(post("?name=a.eds", "no file of keys").status, 422u);
     auto pump = servo;

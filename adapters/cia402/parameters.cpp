@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <boost/json/object.hpp>
 #include <boost/json/serialize.hpp>
+#include <map>
 #include <memory>
 #include <set>
 #include <vector>
@@ -109,6 +110,18 @@ public:
         return out;
     }
 
+    /// The values that a DCF gives to parameters which can be written, in the order of their objects. Those that depend on the node number,
+    /// and those that a download of the configuration leaves out (ObjFlags bit 0, CiA 306-1), are not among them.
+    [[nodiscard]] json::array configured() const {
+        json::array out;
+        for (const auto& [address, e] : eds_.entries) {
+            const auto id = ids_.find(address);
+            if (id == ids_.end() || !e.configured.given() || e.configured.plus_node || (e.flags & 1u) != 0) continue;
+            out.push_back(json::object{{"parameter", id->second}, {"value", json_of(e.configured)}});
+        }
+        return out;
+    }
+
 private:
     /// Where the value is read from, and whether it can be read: a write-only entry is left out where only the gateway writes.
     static std::string_view access_of(const EdsEntry& e, bool reads_only) {
@@ -128,12 +141,18 @@ private:
         const std::string_view access = access_of(e, p.at("access") == "R" || is_gateways(at.index));
         covered_.insert(at);
         if (access.empty() || e.type == DataType::domain) return;
-        if (const auto* count = p.if_contains("count"); count && count->is_int64()) {
+        const std::string id(p.at("id").as_string());
+        const bool row = p.contains("count") && p.at("count").is_int64();
+        const auto* first = p.if_contains("first");
+        const std::int64_t start = first && first->is_int64() ? first->as_int64() : 0;
+        if (access != "R") ids_[at] = row ? fmt::format("{}[{}]", id, start) : id;
+        if (row) {
             int n = 1;
             for (auto next = std::next(found); next != eds_.entries.end() && at.sub + n < 255; ++next, ++n) {
                 const Address there{at.index, static_cast<std::uint8_t>(at.sub + n)};
                 if (next->first != there || next->second.type != e.type || next->second.access != e.access) break;
                 covered_.insert(there);
+                if (access != "R") ids_[there] = fmt::format("{}[{}]", id, start + n);
             }
             p["count"] = n;
         }
@@ -164,6 +183,7 @@ private:
         if (taken_.contains(name)) name = as_name(fmt::format("{} {:04x} {:02x}", name.substr(0, longest_name - 8), at.index, at.sub));
         if (!taken_.insert(name).second || !taken_.insert(id).second) return;  // a catalogue row has the same name, and takes precedence
         const bool writable = access != "R";
+        if (writable) ids_[at] = id;
         const bool at_once =
             writable && (e.access == canopen::EntryAccess::write_only || e.access == canopen::EntryAccess::read_write_output || e.mappable);
         json::object p{{"id", id},
@@ -195,7 +215,7 @@ private:
         };
         put("min", e.low, number);
         put("max", e.high, number);
-        put("default", e.configured.given() ? e.configured : e.fallback, true);
+        put("default", e.fallback, true);
         const auto end = [&](const char* key) {
             const auto* v = p.if_contains(key);
             return v && v->is_number() ? std::optional(v->to_number<double>()) : std::nullopt;
@@ -211,6 +231,7 @@ private:
     const canopen::Eds& eds_;
     const DescriptionText& file_;
     std::set<Address> covered_;
+    std::map<Address, std::string> ids_;  ///< of parameters that can be written
     std::set<std::string> taken_;
 };
 
@@ -263,7 +284,9 @@ OwnCatalogue own_catalogue(const CatalogueWish& wish) {
         return {nullptr, fmt::format("description {}, line {}: {}", wish.description->name, faults.empty() ? 0 : faults.front().line,
                                      faults.empty() ? std::string("it cannot be read") : faults.front().text)};
     json::object document = wish.page.document();
-    document["parameters"] = Overlay(*eds, *wish.description).parameters(wish.page.document().at("parameters").as_array());
+    Overlay overlay(*eds, *wish.description);
+    document["parameters"] = overlay.parameters(wish.page.document().at("parameters").as_array());
+    if (json::array values = overlay.configured(); !values.empty()) document["configured"] = std::move(values);
     document["modes"] = modes_of(wish.page, *eds);
     document[member] = json::object{{"name", wish.description->name},
                                     {"vendor_number", number_or_nothing(eds->vendor_number)},

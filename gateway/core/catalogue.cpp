@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 
+#include "gateway/core/json_read.hpp"
 #include "gateway/core/parameter_form.hpp"
 
 namespace axisgate {
@@ -30,15 +31,6 @@ std::optional<double> number(const json::value& v) {
     if (v.is_uint64()) return static_cast<double>(v.get_uint64());
     if (v.is_double()) return v.get_double();
     return std::nullopt;
-}
-
-Value value_from(const json::value& v) {
-    if (v.is_bool()) return Value{v.get_bool()};
-    if (v.is_int64()) return Value{v.get_int64()};
-    if (v.is_uint64()) return Value{static_cast<std::int64_t>(v.get_uint64())};
-    if (v.is_double()) return Value{v.get_double()};
-    if (v.is_string()) return Value{std::string(v.get_string())};
-    return Value{};
 }
 
 struct Reader {
@@ -76,7 +68,7 @@ struct Reader {
         if (const auto* v = o.if_contains("min")) p.min = number(*v);
         if (const auto* v = o.if_contains("max")) p.max = number(*v);
         if (p.min && p.max && *p.min > *p.max) faults.push_back(where + ": min is above max");
-        if (const auto* v = o.if_contains("default")) p.factory_default = value_from(*v);
+        if (const auto* v = o.if_contains("default")) p.factory_default = value_of_json(*v);
         if (const auto* v = o.if_contains("allowed"); v && v->is_object()) {
             for (const auto& [k, meaning] : v->get_object()) {
                 std::int64_t n = 0;
@@ -116,7 +108,7 @@ struct Reader {
             if (const auto* min = a.if_contains("min")) argument.min = number(*min);
             if (const auto* max = a.if_contains("max")) argument.max = number(*max);
             if (argument.min && argument.max && *argument.min > *argument.max) faults.push_back(at + ": min is above max");
-            if (const auto* fallback = a.if_contains("default")) argument.fallback = value_from(*fallback);
+            if (const auto* fallback = a.if_contains("default")) argument.fallback = value_of_json(*fallback);
             for (const auto& other : into) {
                 if (other.name == argument.name) faults.push_back(fmt::format("{}: {} is there twice", at, argument.name));
             }

@@ -7,6 +7,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "gateway/core/json_read.hpp"
+
 namespace axisgate {
 namespace {
 namespace json = boost::json;
@@ -54,15 +56,6 @@ std::string into_counts(const CommandArgument& a, const Value& given, Value& int
     return {};
 }
 
-Value value_of(const json::value& v) {
-    if (v.is_bool()) return Value{v.get_bool()};
-    if (v.is_int64()) return Value{v.get_int64()};
-    if (v.is_uint64()) return Value{static_cast<double>(v.get_uint64())};
-    if (v.is_double()) return Value{v.get_double()};
-    if (v.is_string()) return Value{std::string(v.get_string())};
-    return Value{};
-}
-
 std::string names_of(const CatalogueCommand& command) {
     std::string list;
     for (const auto& a : command.arguments)
@@ -98,7 +91,7 @@ CheckedArguments check(const CatalogueCommand& command, const std::vector<std::p
 CheckedArguments check_arguments(const CatalogueCommand& command, const json::object& given) {
     std::vector<std::pair<std::string, Value>> list;
     for (const auto& [name, value] : given)
-        list.emplace_back(std::string(name), value_of(value));
+        list.emplace_back(std::string(name), value_of_json(value));
     return check(command, list);
 }
 

@@ -169,4 +169,13 @@ std::optional<json::value> read_json(std::string_view text, JsonFault& fault) {
     return std::nullopt;
 }
 
+Value value_of_json(const json::value& v) {
+    if (v.is_bool()) return v.get_bool();
+    if (v.is_int64()) return v.get_int64();
+    if (v.is_uint64()) return static_cast<double>(v.get_uint64());
+    if (v.is_double()) return v.get_double();
+    if (v.is_string()) return std::string(v.get_string());
+    return {};
+}
+
 }  // namespace axisgate

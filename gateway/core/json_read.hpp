@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "gateway/core/value.hpp"
+
 namespace axisgate {
 
 struct JsonFault {
@@ -20,5 +22,8 @@ struct JsonFault {
 
 /// The whole text as one value (blanks around it allowed). Names are compared after decoding: "a" and "\u0061" are equal.
 [[nodiscard]] std::optional<boost::json::value> read_json(std::string_view text, JsonFault& fault);
+
+/// A number, text, true or false of JSON as a value; unknown for null, arrays and objects. A whole number above 2^63 - 1 becomes a double.
+[[nodiscard]] Value value_of_json(const boost::json::value& value);
 
 }  // namespace axisgate

@@ -2,7 +2,11 @@
 
 In: the real program, a drive that forgets over a power cycle. Out: events, values. Never sleeps longer than it waits.
 """
+import pathlib
+
 from harness import Gateway, until
+
+TOP = pathlib.Path(__file__).resolve().parents[2]
 
 SITE = {
     "lines": [{"name": "can0", "uri": "twin", "family": "cia402", "bitrate": 1000000}],
@@ -40,3 +44,33 @@ def test_a_drive_that_has_forgotten_is_told_and_mended_as_the_site_says(folder):
         status, refused, _ = g.request("PATCH", "/api/v1/axes/left", {"stored_parameters": "always"}, {"Content-Type": "application/merge-patch+json"})
         assert status == 422 and "ignore, compare or write" in str(refused), refused
         g.send("PATCH", "/axes/left", {"stored_parameters": "compare"})
+
+
+def test_the_values_of_a_dcf_are_compared_and_written_as_the_site_says(folder):
+    empty = {"lines": SITE["lines"], "drives": [], "axes": []}
+    with Gateway(folder, empty) as g:
+        dcf = (TOP / "adapters/cia402/tests/eds/by_tool.dcf").read_bytes()
+        assert g.request("POST", "/api/v1/descriptions?name=machine.dcf", dcf, {"Content-Type": "text/plain"})[0] == 201
+        for n, rule in enumerate(("compare", "write")):
+            g.send("POST", "/drives", {"name": rule, "line": "can0", "address": 5 + n, "presence": "twin", "description": "machine.dcf"}, 201)
+            g.send("POST", "/axes", {"name": rule, "drive": rule, "number": 1 + n, "stored_parameters": rule}, 201)
+            until(lambda: g.axis(rule)["online"], 10, rule)
+            # Somebody has set another value in the drive, and stored it there.
+            g.send("POST", f"/drives/{rule}/native", {"send": "6083:00=9999"})
+            g.send("POST", f"/drives/{rule}/native", {"send": "1010:01=x73617665"})
+            for power in (False, True):
+                g.send("PUT", f"/drives/{rule}/hand", {"power": power})
+                until(lambda: g.axis(rule)["online"] == power, 10, rule)
+
+        def told(axis):
+            return [e["text"] for e in g.get(f"/events?axis={axis}") if e["kind"] == "parameters"]
+        text = until(lambda: next((t for t in told("compare") if "9999" in t), None), 10, "the difference is told")
+        assert "6083h is 9999, stored is 7000" in text and "written" not in text, text
+        until(lambda: any("were written" in t and "refused" not in t for t in told("write")), 10, "what was written is told")
+        assert g.get("/axes/write/parameters/6083h")["value"] == 7000 and g.get("/axes/compare/parameters/6083h")["value"] == 9999
+        # A value that is written through the gateway is newer than the file.
+        g.send("PUT", "/axes/write/parameters/6083h", {"value": 8000})
+        for power in (False, True):
+            g.send("PUT", "/drives/write/hand", {"power": power})
+            until(lambda: g.axis("write")["online"] == power, 10, "write")
+        until(lambda: g.get("/axes/write/parameters/6083h")["value"] == 8000, 10, "the newer value")

@@ -87,10 +87,13 @@ TEST(Described, TwoObjectsOfOneNameAreTold) {
     EXPECT_THAT(find(*c, "2101h")->description, testing::HasSubstr("Drehmoment für Lauf"));
 }
 
-TEST(Described, ADcfsValuesAreTheDefaults) {
+TEST(Described, ADcfsValuesAreBesideTheDefaults) {
     const auto c = made(file("by_tool.dcf"));
     ASSERT_TRUE(c);
-    EXPECT_EQ(find(*c, "6083h")->factory_default, Value{std::int64_t{7'000}});
+    const std::string values = boost::json::serialize(c->document().at("configured"));
+    EXPECT_THAT(values, testing::HasSubstr(R"({"parameter":"6083h","value":7000})"));
+    EXPECT_THAT(values, testing::Not(testing::HasSubstr("1014h"))) << "the gateway sets it, and it hangs on the node number";
+    EXPECT_FALSE(made(file("plain.eds"))->document().contains("configured"));
     EXPECT_FALSE(known(find(*c, "1014h")->factory_default)) << "it hangs on the node number";
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "gateway/core/catalogue.hpp"
+#include "gateway/core/json_read.hpp"
 #include "gateway/services/axis_place.hpp"
 
 namespace axisgate {
@@ -15,6 +16,19 @@ namespace {
 bool same(const Value& a, const Value& b) {
     const auto x = as_number(a), y = as_number(b);
     return x && y ? *x == *y : to_text(a) == to_text(b);
+}
+/// The values that the maker's or builder's file of the drive gives to parameters (ParameterValue of a DCF).
+std::vector<StoredParameter> configured(const Catalogue& catalogue) {
+    std::vector<StoredParameter> out;
+    const auto* list = catalogue.document().if_contains("configured");
+    if (!list) return out;
+    for (const auto& v : list->as_array()) {
+        StoredParameter s;
+        s.parameter = std::string(v.at("parameter").as_string());
+        s.value = value_of_json(v.at("value"));
+        out.push_back(std::move(s));
+    }
+    return out;
 }
 Origin itself() { return {Door::internal, std::make_shared<const std::string>("stored parameters")}; }
 }  // namespace
@@ -46,12 +60,17 @@ void BootCheck::check(const std::string& axis) {
     const auto place = find_axis(sites_, axis);
     if (!place || !place->catalogue) return;
     std::vector<JobPoint> stored;
-    for (const StoredParameter& s : parameters_.stored(axis)) {
+    const auto take = [&](const StoredParameter& s) {
         const auto point = place->catalogue->find(s.parameter);
         const Parameter* p = point ? place->catalogue->parameter(*point) : nullptr;
-        if (!p || !p->readable() || !p->writable() || p->live || p->addressing || !known(s.value)) continue;
-        stored.push_back({s.parameter, *point, s.value});
-    }
+        if (!p || !p->readable() || !p->writable() || p->live || p->addressing || !known(s.value)) return;
+        if (std::ranges::find(stored, s.parameter, &JobPoint::id) == stored.end()) stored.push_back({s.parameter, *point, s.value});
+    };
+    // A value that was written through the gateway is newer than the file.
+    for (const StoredParameter& s : parameters_.stored(axis))
+        take(s);
+    for (const StoredParameter& s : configured(*place->catalogue))
+        take(s);
     if (stored.empty()) return;
     auto points = stored;
     for (JobPoint& p : points)

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "gateway/axis/points.hpp"
+#include "gateway/core/json_read.hpp"
 #include "gateway/services/recipes/recipe_arguments.hpp"
 #include "gateway/services/recipes/recipe_label.hpp"
 #include "gateway/services/recipes/recipe_wish.hpp"
@@ -103,7 +104,7 @@ public:
             if (!v) continue;
             ++found;
             c.op = op;
-            c.value = v->is_uint64() ? Value{v->to_number<double>()} : read_scalar(*v);
+            c.value = value_of_json(*v);
             const bool order = op != Op::is && op != Op::is_not;
             if ((order && !v->is_number()) || v->is_object() || v->is_array() || v->is_null())
                 fault(fmt::format("{}/{}", at, word),

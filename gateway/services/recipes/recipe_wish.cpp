@@ -1,6 +1,7 @@
 // One case for each word that has members of its own.
 #include "gateway/services/recipes/recipe_wish.hpp"
 
+#include "gateway/core/json_read.hpp"
 #include "gateway/services/command_reader.hpp"
 
 namespace axisgate {
@@ -20,7 +21,7 @@ int whole_in(const json::object& body, std::string_view key) {
 }
 Value value_in(const json::object& body) {
     const auto* v = body.if_contains("value");
-    return v ? read_scalar(*v) : Value{};
+    return v ? value_of_json(*v) : Value{};
 }
 
 /// The members of POST /axes/{name}/commands, without those of the recipe itself.
@@ -33,14 +34,6 @@ CommandWish command_in(Kind kind, const json::object& body) {
     return read_command_wish(o);
 }
 }  // namespace
-
-Value read_scalar(const json::value& v) {
-    if (v.is_bool()) return v.get_bool();
-    if (v.is_int64()) return v.get_int64();
-    if (v.is_double()) return v.get_double();
-    if (v.is_string()) return std::string(v.get_string());
-    return {};
-}
 
 StepWish read_step_wish(Kind kind, const json::object& body) {
     switch (kind) {

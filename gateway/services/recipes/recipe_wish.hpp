@@ -10,6 +10,5 @@ namespace axisgate {
 
 [[nodiscard]] StepWish read_step_wish(RecipeStep::Kind kind, const boost::json::object& body);
 /// Numbers, texts, true and false; unknown for anything else.
-[[nodiscard]] Value read_scalar(const boost::json::value& value);
 
 }  // namespace axisgate

@@ -139,13 +139,12 @@ struct CommandLine {
         rehearse = app.add_subcommand("rehearse", "run a recipe or a program in virtual time against many specimens of the site's drives");
         auto* recipe = rehearse->add_option("--recipe", rehearse_options.recipe, "name of a stored recipe, or a file (.json)")
                            ->type_name("NAME|FILE.json");
-        auto* program =
-            rehearse
-                ->add_option("--program", rehearse_options.program,
-                             "a command of the shell that commands the axes over Modbus/TCP, at the address AXISGATE_MODBUS of its "
-                             "environment")
-                ->type_name("COMMAND")
-                ->excludes(recipe);
+        auto* program = rehearse
+                            ->add_option("--program", rehearse_options.program,
+                                         "a command of the shell that commands the axes over Modbus/TCP or EtherNet/IP, at the address "
+                                         "AXISGATE_MODBUS or AXISGATE_ENIP of its environment")
+                            ->type_name("COMMAND")
+                            ->excludes(recipe);
         rehearse
             ->add_option("--time-scale", rehearse_options.time_scale,
                          "with --program: how many times as fast the time passes, 0.1 to 1000 (default 10)")

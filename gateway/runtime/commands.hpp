@@ -61,7 +61,7 @@ struct TwinOptions {
 struct RehearseOptions {
     std::string site_file;   ///< empty: the stored site, with the memories of its twins
     std::string recipe;      ///< a stored recipe, or a file (*.json); empty: a program
-    std::string program;     ///< a command that uses the Modbus door; empty: a recipe
+    std::string program;     ///< a command that uses the Modbus or the EtherNet/IP door; empty: a recipe
     double time_scale = 10;  ///< of a program: how many times as fast the time of the gateway passes
     int limit_s = 600;       ///< of a program, in virtual time
     std::string specimens = "1..100";

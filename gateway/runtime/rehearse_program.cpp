@@ -11,6 +11,7 @@
 #include <chrono>
 
 #include "gateway/core/text.hpp"
+#include "gateway/doors/enip/server.hpp"
 #include "gateway/doors/modbus/server.hpp"
 #include "gateway/runtime/child_process.hpp"
 #include "gateway/runtime/clock.hpp"
@@ -48,11 +49,13 @@ public:
     /// Empty, or the fault of the computer or the program.
     [[nodiscard]] std::string play(const std::string& specimen) {
         static const std::array<std::string, 1> any_port{"127.0.0.1:0"};
-        gateway_.doors().on_site(*gateway_.site());
         if (auto fault = door_.open(any_port); !fault.empty()) return fault;
+        if (auto fault = enip_.open(any_port.front()); !fault.empty()) return fault;
+        gateway_.doors().on_site(*gateway_.site());  // the device that EtherNet/IP shows names its ports
         std::string fault;
         ChildProcess program(wish_.command,
                              {{"AXISGATE_MODBUS", door_.addresses().front()},
+                              {"AXISGATE_ENIP", enip_.addresses().front()},
                               {"AXISGATE_TIME_SCALE", fmt::format("{}", wish_.time_scale)},
                               {"AXISGATE_SPECIMEN", specimen}},
                              kept_output, fault);
@@ -78,11 +81,20 @@ public:
     [[nodiscard]] Duration took() const { return gateway_.now() - began_; }
 
 private:
+    [[nodiscard]] enip::ServerSettings enip_settings() const {
+        enip::ServerSettings s;
+        s.io_port = 0;
+        s.lease_s = std::chrono::duration_cast<std::chrono::seconds>(wish_.lease).count();
+        s.owner_keeps_time = true;
+        return s;
+    }
     void turn() {
         const Instant began = monotonic_now();
         Instant now = began;
         while (gateway_.now() < wanted(now) && now - began < longest_work) {
-            gateway_.step(wanted(now));
+            // The connections of EtherNet/IP send and time out at their own instants of the gateway's time.
+            if (enip_.deadline() <= gateway_.now()) enip_.on_deadline();
+            gateway_.step(std::min(wanted(now), enip_.deadline()));
             now = monotonic_now();
         }
         if (gateway_.now() < wanted(now) - std::chrono::milliseconds(20)) {  // too slow for this scale: its time is what it has got to
@@ -90,8 +102,9 @@ private:
             at_ = now;
         }
         if (io_.poll() > 0) return;
-        const auto until = std::chrono::duration<double, std::nano>(
-            gateway_.engine().wake_at() == never ? 1e9 : static_cast<double>((gateway_.engine().wake_at() - gateway_.now()).count()));
+        const Instant next = std::min(gateway_.engine().wake_at(), enip_.deadline());
+        const auto until =
+            std::chrono::duration<double, std::nano>(next == never ? 1e9 : static_cast<double>((next - gateway_.now()).count()));
         const auto pause = Duration(static_cast<std::int64_t>(until.count() / wish_.time_scale));
         (void)io_.run_one_for(std::clamp(pause, Duration::zero(), longest_sleep));
     }
@@ -119,6 +132,7 @@ private:
     VirtualDoorPort port_{gateway_};
     registers::RegisterImage registers_{port_, wish_.registers};
     modbus::Server door_{io_, port_, registers_, {}};
+    enip::Server enip_{io_, port_, registers_, enip_settings()};
     Instant began_;          ///< virtual
     Instant from_{}, at_{};  ///< the same instant in virtual time and in that of the computer
     std::string step_, last_line_;

@@ -1,6 +1,7 @@
-// Runs a program of its own, such as the program of a PLC, against a specimen: a gateway in virtual time with simulated drives and a Modbus
-// door on this computer, and the program as a child process that commands it. The time of the gateway passes `time_scale` times as fast as
-// that of the computer, and more slowly if the computer is too slow for that, so that no drive is ever late because of it.
+// Runs a program of its own, such as the program of a PLC, against a specimen: a gateway in virtual time with simulated drives, a Modbus
+// and an EtherNet/IP door on this computer, and the program as a child process that commands it. The time of the gateway passes
+// `time_scale` times as fast as that of the computer, and more slowly if the computer is too slow for that, so that no drive is ever late
+// because of it.
 #pragma once
 
 #include <cstddef>
@@ -21,9 +22,9 @@ struct ProgramRehearsalWish {
     registers::RegisterImage::Settings registers{};
 };
 
-/// The program has AXISGATE_MODBUS (ADDRESS:PORT), AXISGATE_TIME_SCALE and AXISGATE_SPECIMEN in its environment, and begins when the drives
-/// are online. It has passed if its exit code is 0. The last line that it printed is the reason otherwise, and its last line that begins
-/// with "step: " names the step; of its output at most `kept_output` bytes are kept.
+/// The program has AXISGATE_MODBUS and AXISGATE_ENIP (ADDRESS:PORT), AXISGATE_TIME_SCALE and AXISGATE_SPECIMEN in its environment, and
+/// begins when the drives are online. It has passed if its exit code is 0. The last line that it printed is the reason otherwise, and its
+/// last line that begins with "step: " names the step; of its output at most `kept_output` bytes are kept.
 [[nodiscard]] RehearsedSpecimen rehearse_program(const Families& families, const ProgramRehearsalWish& wish, const std::string& specimen);
 
 inline constexpr std::size_t kept_output = 16 * 1024;

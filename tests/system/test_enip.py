@@ -59,7 +59,7 @@ class Originator:
         answer = self.order(0x6F, struct.pack("<IHHHHHH", 0, 0, 2 + more, 0, 0, 0xB2, len(message)) + message + items)
         assert struct.unpack("<I", answer[8:12])[0] == 0, answer
         size = struct.unpack("<H", answer[38:40])[0]
-        body = answer[40:40 + size]
+        body, self.items_behind = answer[40:40 + size], answer[40 + size:]
         words = body[3]
         return body[2], struct.unpack(f"<{words}H", body[4:4 + 2 * words]), body[4 + 2 * words:]
 

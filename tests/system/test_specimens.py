@@ -104,11 +104,12 @@ def rehearse_program(folder, command, *more):
 
 
 def test_a_program_outside_is_told_its_door_and_its_specimen_and_tells_its_step(folder):
-    code, told = rehearse_program(folder, 'echo step: first; echo "$AXISGATE_MODBUS $AXISGATE_TIME_SCALE $AXISGATE_SPECIMEN"; exit 3', "--specimens", "0,slow", "--time-scale", "50")
+    code, told = rehearse_program(folder, 'echo step: first; echo "$AXISGATE_MODBUS $AXISGATE_ENIP $AXISGATE_TIME_SCALE $AXISGATE_SPECIMEN"; exit 3', "--specimens", "0,slow",
+                                  "--time-scale", "50")
     assert code == 1 and told["passed"] == 0 and [s["specimen"] for s in told["specimens"]] == ["0", "slow"], told
     for s in told["specimens"]:
-        host, scale, specimen = s["text"].split()
-        assert host.startswith("127.0.0.1:") and float(scale) == 50 and specimen == s["specimen"] and s["step"] == "first", s
+        modbus, enip, scale, specimen = s["text"].split()
+        assert modbus != enip and all(door.startswith("127.0.0.1:") for door in (modbus, enip)) and float(scale) == 50 and specimen == s["specimen"] and s["step"] == "first", s
     code, told = rehearse_program(folder, "exit 3", "--specimens", "0")
     assert told["specimens"][0]["text"] == "the program ended with code 3 and said nothing", told
     code, told = rehearse_program(folder, "sleep 1000", "--specimens", "0", "--time-scale", "100", "--limit", "20")
@@ -172,6 +173,54 @@ def test_the_plc_program_of_the_examples_copes_with_specimens_of_three_families(
     assert code == 1 and row["step"].startswith("feeder: move to 16000, attempt 8") and "refused" in row["text"], row
     code, out, err = run("rehearse", "--site", str(site), "--program", f"{sys.executable} {program} nobody", "--specimens", "0", "--json")
     assert code == 1 and json.loads(out)["specimens"][0]["text"].startswith("there is no axis nobody"), (out, err)
+
+
+def test_the_enip_program_of_the_examples_copes_with_specimens_of_two_families(folder):
+    program, site = harness.EXAMPLES / "enip_program.py", harness.EXAMPLES / "plc-site.json"
+
+    def rehearsed(axes, specimens, which=site):
+        code, out, err = run("rehearse", "--site", str(which), "--program", f"{sys.executable} {program} {axes}", "--specimens", specimens, "--time-scale", "20", "--json")
+        return code, json.loads(out), err
+    code, told, err = rehearsed("feeder lift", "0,3,weak")
+    assert code == 0 and told["passed"] == 3, (told, err)
+    document = json.loads(site.read_text())
+    next(a for a in document["axes"] if a["name"] == "feeder").update({"position_min": -10, "position_max": 3})
+    narrow = pathlib.Path(folder) / "narrow.json"
+    narrow.write_text(json.dumps(document))
+    code, told, err = rehearsed("feeder", "0", narrow)
+    row = told["specimens"][0]
+    assert code == 1 and row["step"].startswith("feeder: move to 16000, attempt 8") and "general status 09h, reason 1" in row["text"], row
+
+
+# A class 1 connection of 100 ms that never sends: in 0.4 s of this computer it gets the images of 8 s, and is ended behind 12.8 s.
+LISTENER = """
+import os, socket, struct, sys, time
+sys.path.insert(0, sys.argv[1])
+from test_enip import Originator
+host, port = os.environ["AXISGATE_ENIP"].rsplit(":", 1)
+with Originator(host, int(port), 0) as o:
+    assert o.open(151, 101, rpi_us=100000) == (0, ()), "the connection is refused"
+    kind, size, family, io_port = struct.unpack("<HH", o.items_behind[:4]) + struct.unpack(">HH", o.items_behind[4:8])
+    assert (kind, size, family) == (0x8000, 16, 2) and io_port != 0, o.items_behind
+    begun, images, last = time.monotonic(), 0, 0.0
+    o.udp.settimeout(0.3)
+    try:
+        while time.monotonic() < begun + 3:
+            o.udp.recv(2048)
+            last = time.monotonic() - begun
+            images += last < 0.4
+    except socket.timeout:
+        pass
+    print(images, "images, the last one after", round(last, 2), "s")
+    sys.exit(0 if 25 < images < 90 and 0.3 < last < 2 else 1)
+"""
+
+
+def test_a_class_1_connection_runs_in_the_time_of_the_gateway(folder):
+    program = pathlib.Path(folder) / "listener.py"
+    program.write_text(LISTENER)
+    code, told = rehearse_program(folder, f"{sys.executable} -B {program} {pathlib.Path(__file__).resolve().parent}", "--specimens", "0", "--time-scale", "20")
+    assert code == 0, told
 
 
 def test_a_recipe_is_rehearsed_over_http_while_its_axis_stands(gateway):

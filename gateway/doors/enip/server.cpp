@@ -133,6 +133,8 @@ public:
     void close();
     [[nodiscard]] const cip::Adapter& adapter() const noexcept { return adapter_; }
     [[nodiscard]] const HostFacts& facts() const noexcept { return facts_; }
+    [[nodiscard]] Instant deadline() const { return open_ ? std::min(adapter_.deadline(), next_sweep_) : never; }
+    void on_deadline();
 
 private:
     static void mark(int fd, std::uint8_t dscp) {
@@ -159,7 +161,6 @@ private:
     [[nodiscard]] Layout layout_of(const SiteState& site, std::uint32_t revision) const;
     /// Its bytes are the same in the new layout.
     [[nodiscard]] bool lives_on(const cip::Connection& c, const Layout& there) const;
-    void on_timer();
 
     DoorPort& port_;
     ServerSettings settings_;
@@ -441,19 +442,19 @@ void Server::Impl::listen(UdpSocket& socket, void (Impl::*take)(cip::View, cip::
 }
 
 void Server::Impl::arm() {
-    if (!open_) return;
-    const Instant due = std::min(adapter_.deadline(), next_sweep_);
+    if (!open_ || settings_.owner_keeps_time) return;
+    const Instant due = deadline();
     if (armed_ <= due) return;  // the timer may expire too early and is then set again, which costs less than a system call per request
     armed_ = due;
     timer_.expires_at(
         std::chrono::steady_clock::time_point(std::chrono::duration_cast<std::chrono::steady_clock::duration>(due.time_since_epoch())));
     timer_.async_wait([weak = weak_from_this()](boost::system::error_code ec) {
         const auto self = weak.lock();
-        if (self && !ec) self->on_timer();
+        if (self && !ec) self->on_deadline();
     });
 }
 
-void Server::Impl::on_timer() {
+void Server::Impl::on_deadline() {
     armed_ = never;
     const Instant now = port_.now();
     adapter_.on_deadline(now);
@@ -478,6 +479,8 @@ std::string Server::open(const std::string& bind) {
 std::vector<std::string> Server::addresses() const { return impl_->addresses(); }
 const HostFacts& Server::facts() const noexcept { return impl_->facts(); }
 void Server::close() { impl_->close(); }
+Instant Server::deadline() const { return impl_->deadline(); }
+void Server::on_deadline() { impl_->on_deadline(); }
 const cip::Adapter& Server::adapter() const noexcept { return impl_->adapter(); }
 
 }  // namespace axisgate::enip

@@ -21,6 +21,7 @@ struct ServerSettings {
     bool another_io_port = false;
     std::int64_t lease_s = 30;      ///< duration of the lease by which an axis is held
     std::uint16_t incarnation = 1;  ///< differs at each start
+    bool owner_keeps_time = false;  ///< the port's time is not this computer's: the owner calls on_deadline()
 };
 
 class Server {
@@ -41,6 +42,9 @@ public:
     /// Facts of this host, and the open ports; constant while the door is open. Any thread.
     [[nodiscard]] const HostFacts& facts() const noexcept;
     void close();
+    /// With `owner_keeps_time`: the instant of the port's time at which on_deadline() has something to do. It changes with each request.
+    [[nodiscard]] Instant deadline() const;
+    void on_deadline();
     [[nodiscard]] const cip::Adapter& adapter() const noexcept;
 
 private:

@@ -47,9 +47,9 @@ def run(*arguments, stdin=None, check=None, env=None):
 
 
 class Process:
-    def __init__(self, *arguments, limit=20):
+    def __init__(self, *arguments, limit=20, program=None, env=None):
         self.log = tempfile.TemporaryFile("w+")
-        self.process = subprocess.Popen([PROGRAM, *arguments], stdout=subprocess.PIPE, stderr=self.log, text=True)
+        self.process = subprocess.Popen([program or PROGRAM, *arguments], stdout=subprocess.PIPE, stderr=self.log, text=True, env={**os.environ, **(env or {})})
         self.ready = ""
         self.code = ""  # of the first sign-in, if it was printed
         os.set_blocking(self.process.stdout.fileno(), False)
@@ -107,7 +107,7 @@ class Folder:
 
 
 class Gateway(Process):
-    def __init__(self, folder, site=DEMO, *more):
+    def __init__(self, folder, site=DEMO, *more, program=None, env=None):
         arguments = ["serve", "--data", str(folder / "data"), "--set", "http.bind=127.0.0.1:0", "--set", "modbus.bind=127.0.0.1:0", "--set", "enip.bind=127.0.0.1:0"]
         if site is not None:
             (folder / "site.json").write_text(json.dumps(site))
@@ -115,7 +115,7 @@ class Gateway(Process):
                 if (EXAMPLES / name).exists():
                     shutil.copy(EXAMPLES / name, folder)
             arguments += ["--site", str(folder / "site.json")]
-        super().__init__(*arguments, *more)
+        super().__init__(*arguments, *more, program=program, env=env)
         self.http = self.word("http").rsplit(":", 1)
         self.modbus_port = int(self.word("modbus").rsplit(":", 1)[1])
 

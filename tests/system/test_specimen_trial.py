@@ -1,0 +1,27 @@
+"""Specimens that earlier programs did not serve (docs/decisions/engine-and-twins.md has the list), tried by specimen_trial.py on a CAN bus of processes."""
+import concurrent.futures
+import types
+
+import harness
+import specimen_trial
+
+# 19 samples its control word each 6 ms. 22 has no position demand. 53 shows a mode after 468 ms and takes a mapping in pre-operational only; nothing
+# takes it there when its master is gone. 57 is stopped by another master while it turns.
+SEEDS = ("19", "22", "53", "57")
+
+
+def test_drives_that_earlier_programs_did_not_serve():
+    plan = types.SimpleNamespace(program=harness.PROGRAM, twins=harness.PROGRAM, can=None, watches=False, most=3)
+    with concurrent.futures.ThreadPoolExecutor(len(SEEDS)) as pool:
+        played = [run.result() for run in [pool.submit(specimen_trial.play, plan, seed, seed, {}) for seed in SEEDS]]
+    assert all(not failures for _, _, failures in played), played
+
+
+def test_the_trial_tells_a_drive_that_is_not_found():
+    find_s, specimen_trial.FIND_S = specimen_trial.FIND_S, 3
+    try:
+        plan = types.SimpleNamespace(program=harness.PROGRAM, twins=harness.PROGRAM, can=None, watches=False, most=3)
+        name, _, failures = specimen_trial.play(plan, "late", None, {"boot_ms": "6000"})
+    finally:
+        specimen_trial.FIND_S = find_s
+    assert name == "late" and len(failures) == 1 and failures[0][0] == "find" and "does not answer" in failures[0][1], failures

@@ -25,6 +25,7 @@ void word_taken(AxisKnown& known, Job& job, const Step& s, Instant now) {
     const auto word = static_cast<std::uint16_t>(canopen::low_first(s.bytes));
     if ((known.cw & start_bit) != 0 && (word & start_bit) == 0) known.low_since = now;
     known.cw = word;
+    if ((word & 0x0Fu) != 0x0F) known.left_at = now;
     if (!s.edge) return;
     job.went = now;
     job.from = known.fb.position;
@@ -35,6 +36,7 @@ void word_taken(AxisKnown& known, Job& job, const Step& s, Instant now) {
 bool met(AxisKnown& known, Job& job, const Step& s, const canopen::SdoEnd& end, Instant now) {
     const auto raw = canopen::low_first(end.data);
     if (s.awaits == Step::Awaits::homing) return homing_begun(known, job, static_cast<unsigned>(raw), now);
+    if (s.awaits == Step::Awaits::off) return false;
     const bool shown = (raw & s.mask) == s.want;
     if (shown && s.awaits == Step::Awaits::mode) known.mode = static_cast<int>(signed_of(end.data));
     if (shown && s.awaits == Step::Awaits::release) job.released = known.acknowledged;
@@ -75,6 +77,7 @@ std::string not_met(const AxisKnown& known, const Step& s, const canopen::SdoEnd
             return fmt::format("the drive has not begun within {} ms: {}. Where it needs longer, set its option start_timeout_ms", ms,
                                status_in_words(raw, known.mode));
         case Step::Awaits::value:
+        case Step::Awaits::off:
             break;
     }
     return "the drive has acknowledged, and " + (s.away_from ? fmt::format("still shows position {}", signed_of(end.data))

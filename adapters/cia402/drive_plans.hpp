@@ -22,6 +22,7 @@ struct AxisKnown {
     int mode = 0;                 ///< 6061h, as last shown
     int ordered_mode = 0;         ///< 6060h, as it was written to the drive
     Instant low_since{};          ///< since when bit 4 of the control word is 0
+    Instant left_at{};            ///< when the drive has acknowledged the last control word that does not enable operation
     bool acknowledged = false;    ///< status bit 12 has acknowledged the last set-point
     bool no_acknowledge = false;  ///< the drive has started a motion without acknowledgement
     std::uint32_t modes = 0;
@@ -56,7 +57,14 @@ struct AxisKnown {
         return profile && turns() && (six == 0x27 || six == 0x07 || (sw & 0x4Fu) == 0x0F);
     }
     [[nodiscard]] unsigned state() const noexcept { return fb.statusword.value_or(0) & 0x6Fu; }
-    [[nodiscard]] bool on() const noexcept { return state() == 0x27; }
+    /// The longest time by which a drive shows an older status word.
+    static constexpr Duration oldest_report = std::chrono::seconds(1);
+    [[nodiscard]] bool shows_on() const noexcept { return state() == 0x27; }
+    /// It shows "operation enabled", and this is not older than a control word that has ended it.
+    [[nodiscard]] bool on(Instant now) const noexcept {
+        const bool outdated = (cw & 0x0Fu) != 0x0F && left_at != Instant{} && now < left_at + oldest_report;
+        return shows_on() && !outdated;
+    }
 };
 
 /// Returns an empty text, or why the command is refused. `axis` is its place on the node.

@@ -28,7 +28,8 @@ struct Step {
         mode,         ///< 6061h shows the mode that 6060h has ordered
         release,      ///< status bit 12 is 0: the drive accepts the next set-point
         acknowledge,  ///< status bit 12: the drive has accepted the set-point
-        homing        ///< homing is in progress, or has ended already
+        homing,       ///< homing is in progress, or has ended already
+        off           ///< the drive shows that operation has ended: the steps are planned anew by the state that it shows then
     };
     enum class Kind : std::uint8_t { read, write, until, nmt } kind = Kind::read;
     Address address;

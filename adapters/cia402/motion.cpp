@@ -30,9 +30,13 @@ void plan_homing(const Node& node, const AxisKnown& known, Job& job, std::option
     job.start_word(on_word | start_bit);
 }
 
-std::string plan_enable(const AxisKnown& known, Job& job, Reason& reason) {
+std::string plan_enable(const AxisKnown& known, Job& job, Instant now, Reason& reason) {
     reason = Reason::wrong_state;
     if (known.fb.fault) return "the drive is in a fault: reset it first";
+    if (known.shows_on() && !known.on(now)) {  // from before a stop, so that it would be no answer to this Enable
+        job.await(Step::Awaits::off, object::statusword, 0, 0, AxisKnown::oldest_report);
+        job.steps.back().optional = true;
+    }
     // A change of mode must not move the axis: the target velocity is 0, and positioning waits for its start bit. A cyclic mode stays in
     // force until another one is shown, with the actual position as its target.
     if (known.offers(3) || known.offers(9)) job.write(object::target_velocity, 0, 4, true);
@@ -43,20 +47,20 @@ std::string plan_enable(const AxisKnown& known, Job& job, Reason& reason) {
     }
     if (known.mode == 4 || known.mode == 10) job.write(object::target_torque, 0, 2, true);
     if (known.offers(1)) job.write(object::mode, 1, 1);
-    if (!known.on() && known.state() != 0x07) {
+    if (!known.shows_on() && known.state() != 0x07) {
         job.word(0x06), job.until(0x6F, 0x21);
         job.word(0x07), job.until(0x6F, 0x23);
-    } else if (!known.on()) {  // out of a quick stop, when it has ended
+    } else if (!known.shows_on()) {  // out of a quick stop, when it has ended
         job.until_standstill();
     }
     job.word(on_word), job.until(0x6F, 0x27);
     return {};
 }
 
-std::string plan_set_position(const Node& node, const AxisKnown& known, Job& job, const SetPosition& set, Reason& reason) {
+std::string plan_set_position(const Node& node, const AxisKnown& known, Job& job, const SetPosition& set, Instant now, Reason& reason) {
     if (!known.offers(6)) return "this drive has no homing mode (6502h), by which a position is set";
     reason = Reason::wrong_state;
-    if (!known.on()) return "the axis is off: enable it first";
+    if (!known.on(now)) return "the axis is off: enable it first";
     if (known.fb.moving) return "the axis moves: stop it first";
     reason = Reason::out_of_range;
     if (!fits_i32(set.position)) return "a position is a number of 32 bits";
@@ -69,10 +73,10 @@ std::string plan_set_position(const Node& node, const AxisKnown& known, Job& job
     return {};
 }
 
-std::string plan_home(const Node& node, const AxisKnown& known, Job& job, const Home& home, Reason& reason) {
+std::string plan_home(const Node& node, const AxisKnown& known, Job& job, const Home& home, Instant now, Reason& reason) {
     if (!known.offers(6)) return "this drive has no homing mode (6502h)";
     reason = Reason::wrong_state;
-    if (!known.on()) return "the axis is off: enable it first";
+    if (!known.on(now)) return "the axis is off: enable it first";
     reason = Reason::out_of_range;
     if (home.method < -128 || home.method > 127) return "a homing method is a number from -128 to 127";
     plan_homing(node, known, job, home.method == 0 ? std::nullopt : std::optional(home.method));
@@ -80,12 +84,12 @@ std::string plan_home(const Node& node, const AxisKnown& known, Job& job, const 
     return {};
 }
 
-std::string plan_move(const Node& node, const AxisKnown& known, Job& job, const Move& m, Reason& reason) {
+std::string plan_move(const Node& node, const AxisKnown& known, Job& job, const Move& m, Instant now, Reason& reason) {
     const int mode = m.kind == Move::Kind::velocity ? 3 : 1;
     if (m.prepare_only) return fmt::format("a {} on this line prepares no motion: start it alone", node.dialect.noun);
     if (!known.offers(mode)) return fmt::format("this drive has no {} mode (6502h)", mode == 3 ? "profile velocity" : "profile position");
     reason = Reason::wrong_state;
-    if (!known.on()) return "the axis is off: enable it first";
+    if (!known.on(now)) return "the axis is off: enable it first";
     reason = Reason::out_of_range;
     if (!fits_i32(m.target)) return "a target is a number of 32 bits";
     const auto rate = [&](Address a, const std::optional<std::int64_t>& v) {
@@ -125,7 +129,7 @@ std::string plan(const Node& node, const AxisKnown& known, std::size_t axis, Job
     if (const auto* native = std::get_if<Native>(&body)) return plan_native(node, job, *native, reason);
     if (const auto* action = std::get_if<Action>(&body)) return plan_action(node, known, job, *action, now, reason);
     if (!known.profile) return fmt::format("this {} has no objects of CiA 402 (6041h): its own program moves it", noun);
-    if (std::holds_alternative<Enable>(body)) return plan_enable(known, job, reason);
+    if (std::holds_alternative<Enable>(body)) return plan_enable(known, job, now, reason);
     if (std::holds_alternative<ResetFault>(body)) {
         if (!known.fb.fault) return job.read(object::error_code), "";
         job.word(0x00), job.word(0x80);
@@ -136,19 +140,20 @@ std::string plan(const Node& node, const AxisKnown& known, std::size_t axis, Job
         job.word(0x00);
         return {};
     }
-    if (const auto* home = std::get_if<Home>(&body)) return plan_home(node, known, job, *home, reason);
-    if (const auto* set = std::get_if<SetPosition>(&body)) return plan_set_position(node, known, job, *set, reason);
-    if (const auto* move = std::get_if<Move>(&body)) return plan_move(node, known, job, *move, reason);
+    if (const auto* home = std::get_if<Home>(&body)) return plan_home(node, known, job, *home, now, reason);
+    if (const auto* set = std::get_if<SetPosition>(&body)) return plan_set_position(node, known, job, *set, now, reason);
+    if (const auto* move = std::get_if<Move>(&body)) return plan_move(node, known, job, *move, now, reason);
     return fmt::format("a {} on this line has no {}", noun, name_of(body));
 }
 
 bool plan_anew(const Node& node, const AxisKnown& known, std::size_t axis, Job& job, const Step& s, unsigned sw, Instant now) {
-    if (!std::holds_alternative<Enable>(job.command.body) || s.address != object::statusword || job.planned_anew) return false;
+    if (!std::holds_alternative<Enable>(job.command.body) || s.address != object::statusword) return false;
+    const bool left = s.awaits == Step::Awaits::off && (sw & 0x6Fu) != 0x27;
     const bool fallen = s.want == 0x27 && (sw & 0x4Fu) == 0x40, quick = (s.want == 0x21 || s.want == 0x23) && (sw & 0x6Fu) == 0x07;
-    if (!fallen && !quick) return false;
+    if (!left && (job.planned_anew || (!fallen && !quick))) return false;
     Job again;
     again.command = job.command;
-    again.planned_anew = true;
+    again.planned_anew = !left;
     Reason reason = Reason::none;
     if (!plan(node, known, axis, again, now, reason).empty()) return false;
     job = std::move(again);

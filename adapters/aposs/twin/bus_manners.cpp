@@ -15,6 +15,7 @@ using cia402_drive::twin::Node;
 namespace {
 constexpr int most_events = 100'000;  // in one call
 bool is_mapping(std::uint16_t index) { return (index >= 0x1600 && index < 0x1800) || (index >= 0x1A00 && index < 0x1C00); }
+bool is_pdo(const Frame& f) { return f.id >= 0x180 && f.id < 0x580; }
 bool begins(const Frame& request) {
     const unsigned command = request.storage[0] >> 5;
     return command == 1 || command == 2 || command == 5 || command == 6;
@@ -27,7 +28,7 @@ BusManners::BusManners(const Manners& m, std::uint8_t node)
       node_(node),
       plain_(m.sdo_answer == Duration::zero() && m.sdo_late_share == 0 && m.sdo_busy_share == 0 && m.pdo_setup == PdoSetup::always &&
              m.lacks == Lacks::nothing && m.sends_emergencies && m.emergency_late == Duration::zero() &&
-             m.heartbeat_jitter == Duration::zero() && m.foreign == Duration::zero()) {}
+             m.heartbeat_jitter == Duration::zero() && m.foreign == Duration::zero() && m.pdo_late == Duration::zero()) {}
 
 void BusManners::power_on(Instant now) {
     power_off();
@@ -119,7 +120,7 @@ void BusManners::receive(Node& node, const Frame& f, Instant now, Out& out) {
     pass(own, now, out);
 }
 
-void BusManners::pass(const Out& from_node, Instant now, Out& out) {
+void BusManners::pass(const Out& from_node, Instant now, Out& out, bool by_itself) {
     for (const auto& tx : from_node.frames) {
         const Frame& f = tx.frame;
         Duration late{};
@@ -132,6 +133,8 @@ void BusManners::pass(const Out& from_node, Instant now, Out& out) {
             if (!boots) late = Duration(static_cast<std::int64_t>(specimen_draw(manners_.seed, "heartbeat", ++beats_) % span));
         } else if (f.id == static_cast<std::uint32_t>(canopen::sdo_answer_base + node_) && happens("late", manners_.sdo_late_share)) {
             late = manners_.sdo_late;
+        } else if (by_itself && is_pdo(f)) {
+            late = manners_.pdo_late;
         }
         const Instant at = std::max(f.at, Instant{}) + late;
         if (late == Duration::zero() || at <= now)
@@ -169,7 +172,7 @@ void BusManners::run(Node& node, Instant now, Out& out) {
         if (!node.powered()) return;
         Out own;
         node.advance(at, own);
-        pass(own, at, out);
+        pass(own, at, out, true);
     };
     for (int i = 0; i < most_events && deadline() <= now; ++i) {
         const Instant at = deadline();

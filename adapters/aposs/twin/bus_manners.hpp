@@ -20,11 +20,11 @@ public:
     /// Everything that is due until `now`, each at its instant, and the node's own events.
     void run(cia402_drive::twin::Node& node, Instant now, Out& out);
     [[nodiscard]] Instant deadline() const;
-    /// Frames that the node has sent.
-    void pass(const Out& from_node, Instant now, Out& out);
+    /// Frames that the node has sent; `by_itself`: no frame of the line was their cause.
+    void pass(const Out& from_node, Instant now, Out& out, bool by_itself = false);
 
 private:
-    static constexpr std::size_t most_requests = 8, most_waiting = 256;  ///< further ones are lost
+    static constexpr std::size_t most_requests = 8, most_waiting = 1024;  ///< further ones are lost
     struct Waiting {
         Instant at;
         Frame frame;

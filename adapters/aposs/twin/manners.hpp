@@ -22,8 +22,9 @@ struct Manners {
     PdoSetup pdo_setup = PdoSetup::always;
     Lacks lacks = Lacks::nothing;
     bool sends_emergencies = true;
-    Duration emergency_late{}, heartbeat_jitter{}, foreign{}, extra_pdo{};
+    Duration emergency_late{}, heartbeat_jitter{}, foreign{}, extra_pdo{}, pdo_late{};
     Duration axis_start{}, program_cycle{}, status_late{}, position_late{};
+    ///< pdo_late: of a PDO by its event timer, so that it does not overtake an older one of the same identifier behind a SYNC
     double switch_hysteresis = 0;  ///< qc
     ShaftFreedoms shaft;
     std::uint64_t seed = 0;
@@ -44,6 +45,7 @@ struct Manners {
         heartbeat_jitter = ms("heartbeat_jitter_ms");
         foreign = ms("foreign_ms");
         extra_pdo = ms("extra_pdo_ms");
+        if (extra_pdo != Duration::zero()) pdo_late = ms("reply_ms");
         axis_start = ms("axis_start_ms");
         program_cycle = ms("program_cycle_ms");
         status_late = ms("status_late_ms");

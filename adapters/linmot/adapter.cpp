@@ -78,7 +78,7 @@ void LineAdapter::line_changed(Turn& t) {
 
 void LineAdapter::arrived(const Frame& frame, Turn& t) {
     if (!bus_.is_run(frame)) return;
-    const std::size_t overlapped = bus_.shared.heard(t.now, frame.size, bus_.wire(1));
+    const std::size_t overlapped = bus_.shared.heard(t.now, frame.size, bus_.wire(1), framer_.pending());
     if (overlapped > 0) ++bus_.counters.garbled;
     framer_.push(
         frame.data().subspan(overlapped), [&](const Telegram& telegram, std::span<const std::uint8_t>) { received(telegram, t); },

@@ -69,8 +69,10 @@ std::optional<Telegram> Power::request(Turn& t) {
                 accept(feedback.state_text(), t);
                 return std::nullopt;
             }
-            // A response that nobody has asked for may have been taken for the answer to a control word that was lost.
-            if (control.word() != cw_on || ++job().step % looks_per_word == 0) return control.write(cw_on);
+            // A response that nobody has asked for may have been taken for the answer to a control word that was lost. Beside a periodic
+            // telegram of another master each sixth request may be the one that is lost.
+            if (control.word() != cw_on || ++job().step % (drive_.bus.shared.shared(t.now) ? 1 : looks_per_word) == 0)
+                return control.write(cw_on);
             break;
     }
     return linmot::request(drive_.id(), Main::response, 1);

@@ -64,6 +64,7 @@ void LineAdapter::line_changed(Turn& t) {
     late_drive_ = nullptr;
     answered_ = nullptr;
     missed_ = {};
+    gaps_.line_changed();
     resync_ = true;
     late_.settled();
 }
@@ -143,6 +144,9 @@ void LineAdapter::arrived(const Frame& frame, Turn& t) {
     if (!bus_.is_run(frame)) return;
     const Instant now = t.now;
     const std::string_view bytes = drive::text_of(frame);
+    // Neither a listing nor the echo of a command is printed by a program; a question is known by its mark.
+    const bool echoed = flight_.drive && (flight_.drive->words.em == 0 || flight_.drive->words.em == 3);
+    if (!flight_.drive || flight_.kind == Expect::Kind::query || (flight_.kind != Expect::Kind::block && !echoed)) gaps_.heard(bytes, now);
     if (!flight_.drive) return stray(bytes, t);
     const Verdict v = reader_.push(bytes);
     if (flight_.kind == Expect::Kind::block && v == Verdict::waiting) {
@@ -238,6 +242,7 @@ void LineAdapter::finish(Verdict v, Turn& t) {
     if (flight_.kind != Expect::Kind::block) gather(v, t);
     const Flight f = std::exchange(flight_, {});
     bus_.turns.ended(d.slot());
+    gaps_.ended(v == Verdict::waiting || v == Verdict::garbled || v == Verdict::refused, t.now);
     if (!f.to_all) learn_manners(d, f, v, t);
     bus_.turns.set({.pause = std::max(bus_.timing.pause, d.turnaround.pause())});
     bus_.turns.received(t.now);
@@ -306,7 +311,7 @@ void LineAdapter::settle_all(Instant now) {
 void LineAdapter::end(Turn& t) {
     if (!up()) return;
     looked_at_ = t.now;
-    while (!flight_.drive) {
+    while (!flight_.drive && gaps_.from(t.now) <= t.now) {
         settle_all(t.now);
         const auto slot = bus_.turns.next(t.now);
         if (!slot) return;
@@ -322,7 +327,9 @@ bool LineAdapter::held(const Drive& d, Instant now) const noexcept {
 
 Instant LineAdapter::deadline() const {
     if (!up()) return never;
-    return flight_.drive ? flight_.deadline : std::max(bus_.turns.deadline(), looked_at_);
+    if (flight_.drive) return flight_.deadline;
+    const Instant gap = gaps_.from(looked_at_);  // until then nobody was asked what it wants
+    return gap > looked_at_ ? gap : std::max(bus_.turns.deadline(), looked_at_);
 }
 
 }  // namespace axisgate::mcode

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "adapters/mcode/drive.hpp"
+#include "adapters/mcode/wire_gaps.hpp"
 #include "gateway/drive/exchange.hpp"
 #include "gateway/drive/line_adapter.hpp"
 
@@ -63,6 +64,7 @@ private:
         Instant latest = never;
     } flight_;
     ReplyReader reader_;
+    Gaps gaps_;
     unsigned mark_ = 0;
     std::string answered_mark_;  ///< of the last question that was answered: seen again, two drives answer to one name
     Drive* answered_ = nullptr;  ///< by whom

@@ -1,6 +1,7 @@
 // Lines on which others speak, too, and drives that do not answer everything: the drive is found and served, and nothing of the others is
 // taken for its answer.
 #include "adapters/linmot/tests/line_bench.hpp"
+#include "gateway/wire/specimen_twin.hpp"
 
 namespace axisgate::linmot::test {
 namespace {
@@ -104,6 +105,51 @@ TEST(LinmotSharedLine, ADriveBesideAnotherMasterIsFoundAndServed) {
         }
         EXPECT_GT(b.bus->counters().collisions, 0u) << "without any the test shows nothing";
         EXPECT_EQ(std::ranges::count(b.notices, std::string("alarm"), &Notice::kind), 0);
+    }
+}
+
+/// Reply and conversation of the other master need 17 ms for each byte, and the master speaks twice in a second.
+TEST(LinmotSharedLine, PausesInsideOfATelegramAreNoSilence) {
+    LineTiming timing;
+    timing.reply_timeout = 1200ms;
+    LineBench b(1, shared_rate, {}, timing);
+    TwinSetup t;
+    t.address = "17";
+    t.options = {{"foreign_ms", "500"}, {"chunk_bytes", "1"}, {"chunk_pause_ms", "17"}, {"reply_ms", "27"}, {"request_pause_ms", "27"}};
+    t.freedoms = freedoms_of(page(), t.options);
+    b.bus->add(DriveId{0}, with_common_freedoms(twin::make_twin(page(), t), t), {}, b.now);
+    b.run(20s);
+    ASSERT_TRUE(b.links[DriveId{0}].online) << b.links[DriveId{0}].text;
+    const Result on = b.ask(Enable{}, 0, 40s);
+    ASSERT_TRUE(good(on)) << on.text;
+    for (int i = 0; i < 30; ++i) {
+        const Result r = b.ask(i % 3 == 2 ? CommandBody{Halt{}} : CommandBody{quick_move(i % 2 == 0 ? 100'000 : 0)});
+        EXPECT_TRUE(good(r)) << i << ": " << r.text;
+        b.run(std::chrono::milliseconds(1000 + 37 * i));
+        ASSERT_TRUE(b.links[DriveId{0}].online) << i;
+    }
+}
+
+/// The drive's own response each 900 ms answers a request that was lost, and the next ones follow in the same places between the telegrams
+/// of the other master.
+TEST(LinmotSharedLine, AControlWordIsNotLostInEachPeriodOfTheOthers) {
+    LineTiming timing;
+    timing.reply_timeout = 600ms;
+    for (int phase = 0; phase < 20; ++phase) {
+        LineBench b(1, shared_rate, {}, timing);
+        b.run(std::chrono::milliseconds(7 * phase));
+        TwinSetup t;
+        t.address = "17";
+        t.options = {{"foreign_ms", "100"}, {"unsolicited_ms", "900"}, {"reply_ms", "162"}};
+        t.freedoms = freedoms_of(page(), t.options);
+        b.bus->add(DriveId{0}, with_common_freedoms(twin::make_twin(page(), t), t), {}, b.now);
+        b.run(20s);
+        for (int i = 0; i < 4; ++i) {
+            const Result on = b.ask(Enable{}, 0, 40s);
+            EXPECT_TRUE(good(on)) << phase << " " << i << ": " << on.text;
+            EXPECT_TRUE(good(b.ask(Disable{}, 0, 40s))) << phase << " " << i;
+            b.run(std::chrono::milliseconds(1000 + 37 * i));
+        }
     }
 }
 

@@ -20,13 +20,6 @@ std::optional<std::uint32_t> seed_of(std::string_view text) noexcept {
     return n;
 }
 
-std::uint64_t mixed(std::uint64_t x) noexcept {  // the finalizer of SplitMix64
-    x += 0x9E3779B97F4A7C15ULL;
-    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ULL;
-    x = (x ^ (x >> 27)) * 0x94D049BB133111EBULL;
-    return x ^ (x >> 31);
-}
-
 double fraction(std::uint64_t draw) noexcept { return static_cast<double>(draw >> 11) * 0x1p-53; }
 
 std::int64_t drawn(const Freedom& f, std::uint32_t seed) {
@@ -65,10 +58,7 @@ std::optional<std::int64_t> value_of(const Freedom& f, std::string_view text) {
 }  // namespace
 
 std::uint64_t specimen_draw(std::uint64_t seed, std::string_view place, std::uint64_t count) noexcept {
-    std::uint64_t h = mixed(seed);
-    for (const char c : place)
-        h = mixed(h ^ static_cast<unsigned char>(c));
-    return mixed(h ^ count);
+    return specimen_draw_at(specimen_place(seed, place), count);
 }
 
 bool is_specimen(std::string_view text) noexcept {

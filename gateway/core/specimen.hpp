@@ -35,6 +35,23 @@ inline constexpr std::uint32_t largest_specimen = 1'000'000'000;
 /// The specimen in words, one line for each freedom that differs from the manual's drive; empty for specimen 0.
 [[nodiscard]] std::vector<std::string> specimen_in_words(const Catalogue& page, const FreedomValues& values);
 
+/// The finalizer of SplitMix64.
+[[nodiscard]] constexpr std::uint64_t specimen_mixed(std::uint64_t x) noexcept {
+    x += 0x9E3779B97F4A7C15ULL;
+    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ULL;
+    x = (x ^ (x >> 27)) * 0x94D049BB133111EBULL;
+    return x ^ (x >> 31);
+}
+/// The part of `specimen_draw` that does not depend on the count, for a place at which numbers are drawn often.
+[[nodiscard]] constexpr std::uint64_t specimen_place(std::uint64_t seed, std::string_view place) noexcept {
+    std::uint64_t h = specimen_mixed(seed);
+    for (const char c : place)
+        h = specimen_mixed(h ^ static_cast<unsigned char>(c));
+    return h;
+}
+[[nodiscard]] constexpr std::uint64_t specimen_draw_at(std::uint64_t place, std::uint64_t count) noexcept {
+    return specimen_mixed(place ^ count);
+}
 /// A number for a place and a count, evenly distributed: the pseudo-random source of specimens and of their behaviour in time.
 [[nodiscard]] std::uint64_t specimen_draw(std::uint64_t seed, std::string_view place, std::uint64_t count = 0) noexcept;
 

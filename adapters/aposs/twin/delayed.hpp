@@ -2,8 +2,10 @@
 // are seen; the value between two notes is that of the earlier one.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
+#include <iterator>
 #include <utility>
 
 #include "gateway/core/instant.hpp"
@@ -41,6 +43,41 @@ public:
 private:
     Duration late_;
     std::deque<std::pair<Instant, std::int64_t>> notes_;  ///< in order of time
+};
+
+/// A value that changes evenly between two notes, as it was some time ago.
+class DelayedCourse {
+public:
+    explicit DelayedCourse(Duration late = {}) : late_(late) {}
+    [[nodiscard]] bool late() const noexcept { return late_ > Duration::zero(); }
+    void note(double value, Instant now) {
+        if (!late()) return;
+        while (notes_.size() > 1 && notes_[1].at <= now - late_)
+            notes_.pop_front();
+        const std::size_t n = notes_.size();
+        const bool stands = n > 1 && notes_[n - 1].value == value && notes_[n - 2].value == value;
+        if (stands || (n > 0 && notes_.back().at >= now))
+            notes_.back() = {now, value};
+        else
+            notes_.push_back({now, value});
+    }
+    /// After the first note.
+    [[nodiscard]] double at(Instant now) const {
+        const auto later = std::ranges::find_if(notes_, [&](const Note& n) { return n.at > now - late_; });
+        if (later == notes_.begin()) return later->value;
+        const Note& before = *std::prev(later);
+        if (later == notes_.end()) return before.value;
+        return before.value + (later->value - before.value) * seconds(now - late_ - before.at) / seconds(later->at - before.at);
+    }
+    void forget() { notes_.clear(); }
+
+private:
+    struct Note {
+        Instant at;
+        double value = 0;
+    };
+    Duration late_;
+    std::deque<Note> notes_;  ///< in order of time
 };
 
 }  // namespace axisgate::aposs

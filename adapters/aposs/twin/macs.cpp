@@ -1,4 +1,4 @@
-// There are steps of 1 ms only while something must be checked in each of them.
+// There are steps of 1 ms only while something must be checked in each of them, and of 20 ms while a specimen's values are noted.
 #include "adapters/aposs/twin/macs.hpp"
 
 #include <algorithm>
@@ -8,6 +8,7 @@ namespace axisgate::aposs {
 namespace {
 using cia402_drive::twin::State;
 constexpr auto one_tick = std::chrono::milliseconds(1);
+constexpr auto one_sample = std::chrono::milliseconds(20);  ///< between two notes the position changes evenly
 // Node guarding: its times are not printed (E-66).
 constexpr auto guard_period = std::chrono::milliseconds(500);
 constexpr auto guard_life = 3 * guard_period;
@@ -36,22 +37,22 @@ void note(std::array<ShownLate, axes>& shown, const std::deque<MacsAxis>& of, In
     for (std::size_t k = 0; k < shown.size(); ++k) {
         const Servo& servo = of[k].servo();
         if (shown[k].status.late()) shown[k].status.note(servo.statusword(now), now);
-        if (shown[k].position.late()) shown[k].position.note(std::llround(servo.shaft().read(now)), now);
+        if (shown[k].position.late()) shown[k].position.note(servo.shaft().read(now), now);
     }
 }
-/// In each millisecond of a motion, values that are shown late must be noted, and a real shaft must follow until it rests.
+/// During a motion, values that are shown late must be noted, and a real shaft that nothing else looks at must follow until it rests.
 bool samples(const std::deque<MacsAxis>& of, const Manners& manners, Instant now) {
     const bool late = manners.status_late != Duration::zero() || manners.position_late != Duration::zero();
     return std::ranges::any_of(of, [&](const MacsAxis& a) {
         const Servo& s = a.servo();
-        return (late && s.shaft().moves(now)) || a.machine.unsettled(s.shaft(), s.powered(), now);
+        return (late && s.shaft().moves(now)) || (!s.shaft().lags() && a.machine.unsettled(s.shaft(), s.powered(), now));
     });
 }
 void show_late(MacsAxis& a, const ShownLate& shown, Instant now) {
     if (const auto v = a.machine.velocity()) a.put(0x606C, 0, a.servo().units().speed_in_units(*v));
     if (shown.status.late()) a.put(0x6041, 0, static_cast<double>(shown.status.at(now)));
     if (!shown.position.late()) return;
-    const auto read = static_cast<double>(shown.position.at(now));
+    const double read = std::round(shown.position.at(now));
     a.put(0x6063, 0, read);
     a.put(0x6064, 0, a.servo().units().in_units(read));
     a.put(0x60F4, 0, a.servo().units().way_in_units(a.servo().shaft().demand(now).position - read));
@@ -70,13 +71,13 @@ Macs::Macs(const Objects& objects, canopen::Dictionary& dictionary, double trave
       d_(dictionary),
       manners_(manners),
       coupling_(places(filled(axes_, objects, dictionary, terminals_, travel, manners)), terminals_) {
-    shown_.fill({Delayed(manners.status_late), Delayed(manners.position_late)});
+    shown_.fill({Delayed(manners.status_late), DelayedCourse(manners.position_late)});
 }
 
 void Macs::power_on(Instant now) {
     program_.reset();
     ticked_ = now;
-    ticking_ = false;
+    tick_every_ = {};
     terminals_.outputs = 0;
     powered_at_ = now;
     orders_.clear();
@@ -218,6 +219,7 @@ std::vector<Device::Reported> Macs::take_reported() {
 void Macs::refresh(Instant now) {
     follow(axes_, now);
     note(shown_, axes_, now);
+    if (tick_every_ == one_sample) ticked_ = now;
     for (int k = 0; k < axes; ++k) {
         MacsAxis& a = axis(k + 1);
         a.servo().refresh(now);
@@ -241,15 +243,15 @@ void Macs::refresh(Instant now) {
 void Macs::begin_ticks(Instant now) {
     tell_drives(bus_, axes_);
     note(shown_, axes_, now);
-    const bool ticking =
-        samples(axes_, manners_, now) || coupling_.ticks() || axes_[0].ticks(coupling_.leads(0)) || axes_[1].ticks(coupling_.leads(1));
-    if (ticking && !ticking_) ticked_ = now;
-    ticking_ = ticking;
+    const bool ticks = coupling_.ticks() || axes_[0].ticks(coupling_.leads(0)) || axes_[1].ticks(coupling_.leads(1));
+    const Duration every = ticks ? one_tick : samples(axes_, manners_, now) ? one_sample : Duration{};
+    if (tick_every_ == Duration::zero()) ticked_ = now;
+    tick_every_ = every;
 }
 Instant Macs::next_event(Instant now) const {
-    Instant next = std::min(ticking_ ? ticked_ + one_tick : never, cycle_at_);
+    Instant next = std::min(tick_every_ == Duration::zero() ? never : ticked_ + tick_every_, cycle_at_);
     for (const ShownLate& s : shown_)
-        next = std::min({next, s.status.next(now), s.position.next(now)});
+        next = std::min(next, s.status.next(now));
     if (!started(axes - 1, manners_, powered_at_, now)) next = std::min(next, powered_at_ + manners_.axis_start);
     if (bus_silent_ && bus_.guards()) next = std::min(next, std::max(now, silent_since_ + guard_life));
     for (const MacsAxis& a : axes_)
@@ -292,8 +294,9 @@ void Macs::on_event(Instant at) {
         for (MacsAxis& a : axes_)
             if (a.servo().state() != State::fault && a.servo().state() != State::fault_reaction) a.raise(guarding_failed, at);
     }
-    if (ticking_ && ticked_ + one_tick <= at) {
-        ticked_ = at;
+    const bool ticks = tick_every_ != Duration::zero() && ticked_ + tick_every_ <= at;
+    if (ticks) ticked_ = at;
+    if (ticks && tick_every_ == one_tick) {
         coupling_.tick(at);
         for (int k = 0; k < axes; ++k)
             axis(k + 1).tick(coupling_.leads(k), at);

@@ -17,7 +17,8 @@ using cia402_drive::twin::Device;
 
 /// Status word and position of an axis as they are shown.
 struct ShownLate {
-    Delayed status, position;
+    Delayed status;
+    DelayedCourse position;
 };
 
 class Macs final : public Device {
@@ -91,7 +92,7 @@ private:
     std::optional<int> program_;
     bool bus_silent_ = false;
     Instant ticked_{}, silent_since_{};
-    bool ticking_ = false;
+    Duration tick_every_{};  ///< zero: nothing needs a calculation
     std::array<bool, axes> in_position_error_{};
     Instant powered_at_{};
     std::vector<Address> orders_;  ///< writes that the application takes in its next cycle

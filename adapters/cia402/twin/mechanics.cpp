@@ -49,10 +49,6 @@ void Mechanics::set_power(bool on, Instant now) {
 void Mechanics::follow(Instant now) const {
     if (held_ || !motor_.differs()) return;
     const auto demanded = [this](Instant at) { return demand(at).position; };
-    const double demand_before = motor_.position() + motor_.following_error();
-    const bool unchanged = !moves(followed_) && std::fabs(demand(now).position - demand_before) < 1e-9;
-    followed_ = std::max(followed_, now);
-    if (on_ && unchanged && motor_.rests()) return motor_.pass_time(now);
     if (on_) return motor_.advance(now, demanded);
     if (!ran_out_) motor_.advance(std::min(now, end()), demanded);
     ran_out_ = ran_out_ || now >= end();

@@ -69,7 +69,6 @@ private:
     double push_from_ = 0, push_to_ = 0, push_slope_ = 0;
     bool held_ = false, on_ = true;
     mutable Shaft motor_;           ///< advanced when it is asked for, with the demand until then
-    mutable Instant followed_{};    ///< when it was last advanced
     mutable bool ran_out_ = false;  ///< without power, it has reached standstill
 };
 

@@ -135,7 +135,7 @@ std::optional<Instant> Orders::arrival() const {
         if (settles() || m_.misreads()) return std::max(m_.end(), reading_at_ + std::chrono::milliseconds(1));
     }
     if (m_.differs() && !m_.held() && !buffered_) {
-        constexpr Duration often = std::chrono::milliseconds(1), seldom = std::chrono::milliseconds(50), usual = std::chrono::seconds(1);
+        constexpr Duration often = std::chrono::milliseconds(4), seldom = std::chrono::milliseconds(50), usual = std::chrono::seconds(1);
         return std::max(m_.end(), looked_at_ + (looked_at_ < m_.end() + usual ? often : seldom));
     }
     if (!settles()) return std::nullopt;

@@ -7,6 +7,7 @@
 
 namespace axisgate::cia402_drive::twin {
 namespace {
+constexpr int looks_seldom = 8;                 ///< periods between two checks of a following error that is far below its limit
 constexpr Ramps coasting{0, 100'000, 100'000};  ///< deceleration of a shaft without power
 /// The bit of the error register (1001h) for the class of the code.
 std::uint8_t register_of(std::uint16_t code) {
@@ -253,24 +254,30 @@ Instant Servo::next_event(Instant now) const {
     Instant next = never;
     if (after_stop_ || homing_.to_switch() || homing_.to_zero()) next = std::max(m_.end(), now);
     if (const auto arrival = orders_.arrival()) next = std::max(*arrival, now);
-    if (watches()) next = std::min(next, checked_ + watch_every_);
+    if (watches()) next = std::min(next, checked_ + look_after_);
     return next;
 }
 
 void Servo::watch(Instant at) {
     checked_ = at;
+    look_after_ = watch_every_;
     switches_.look(m_.shaft(at).position, travel_);
     if (orders_.reads()) return;  // no check between two readings of a target window
     if (!follows_demand()) return;
     const double behind = std::fabs(m_.demand(at).position - m_.read(at));
     const auto window = o_.get(0x6065);
-    behind_ = window == 0xFFFFFFFF || behind <= units_.way_of(0x6065) ? 0 : behind_ + 1;
+    const double most = window == 0xFFFFFFFF ? HUGE_VAL : units_.way_of(0x6065);
+    behind_ = behind <= most ? 0 : behind_ + 1;
+    // A shaft with freedoms is behind in each motion: as long as it is far from the limit it is looked at less often.
+    const bool shows_switches = switches_.hysteresis > 0 && travel_ > 0;
+    if (m_.differs() && !m_.held() && !shows_switches && behind <= most / 2)
+        look_after_ = (behind <= most / looks_seldom ? looks_seldom : 2) * watch_every_;
     if (behind_ <= std::chrono::milliseconds(o_.get(0x6066)) / watch_every_) return;
     behind_ = 0;
     fail(0x8611, at);
 }
 void Servo::on_event(Instant at) {
-    if (watches() && checked_ + watch_every_ <= at) watch(at);
+    if (watches() && checked_ + look_after_ <= at) watch(at);
     if (at < m_.end()) return;
     if (after_stop_) return enter(*after_stop_, at);
     if (homing_.to_switch()) return next_search(at);

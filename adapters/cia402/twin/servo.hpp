@@ -65,7 +65,7 @@ public:
     [[nodiscard]] UserUnits& units() noexcept { return units_; }
     [[nodiscard]] const UserUnits& units() const noexcept { return units_; }
     /// Following errors are checked with this period, and only consecutive ones count as a fault: 6066h divided by this period.
-    void set_watch(Duration every) { watch_every_ = every; }
+    void set_watch(Duration every) { watch_every_ = look_after_ = every; }
     /// Homing methods below 0 are carried out by the family: homing stays in progress until the family gives the zero position, or reports
     /// that it failed.
     [[nodiscard]] const HomingSearch& homing() const noexcept { return homing_; }
@@ -99,6 +99,7 @@ protected:
     HomingSearch homing_;
     std::uint16_t cause_ = 0;  ///< a fault whose cause persists
     Duration watch_every_ = std::chrono::milliseconds(1);
+    Duration look_after_ = watch_every_;  ///< after `checked_`
     Instant checked_{};
     std::int64_t behind_ = 0;  ///< number of consecutive following errors
     std::vector<Reported> reported_;

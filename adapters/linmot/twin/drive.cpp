@@ -105,13 +105,22 @@ void Drive::advance(Instant now) {
     // Bounded: a table that loops without a wait needs one cycle per entry, and next_event() makes the calls frequent enough.
     for (int i = 0; i < 100'000; ++i) {
         const Instant at = due();
-        if (at > now) break;
-        now_ = std::max(now_, at);
-        body_.follower.advance(now_);
+        const bool watched = states_.running() && states_.powered() && !states_.stops_by_error();
+        const Instant lags = body_.follower.advance(std::clamp(at, now_, now), watched);
+        if (lags == never && at > now) break;
+        now_ = std::max(now_, std::min(at, lags));
         handle(now_);
     }
     now_ = now;
     body_.follower.advance(now);
+}
+/// Words change at events, at the end of a motion, and while it settles or another source than the interpolator leads.
+Instant Drive::words_due(Duration look) const {
+    const Demand& demand = body_.demand;
+    const bool moves = demand.moves(now_);
+    const bool looks = body_.monitor.watches() || (states_.powered() && (moves ? demand.led() : body_.follower.swings(now_)));
+    const Instant end = states_.powered() && moves && !demand.led() ? demand.profile().end() : never;
+    return std::min({due(), end, looks ? now_ + look : never});
 }
 
 Instant Drive::due() const {

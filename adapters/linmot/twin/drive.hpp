@@ -33,6 +33,10 @@ public:
     /// The next instant at which the state changes without a request, or `never`.
     [[nodiscard]] Instant next_event() const;
 
+    /// The earliest instant after the last advance at which status word, StateVar or warn word may change without a request; `look` is the
+    /// period of changes that have no closed form.
+    [[nodiscard]] Instant words_due(Duration look) const;
+
     // --- state, at the instant of the last advance ----------------------------------------------------------------------
     [[nodiscard]] std::uint16_t status_word() const { return states_.status_word(now_); }
     [[nodiscard]] std::uint16_t state_var() const { return states_.state_var(now_); }

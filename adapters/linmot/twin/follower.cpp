@@ -6,13 +6,18 @@
 
 namespace axisgate::linmot::twin {
 
-void Follower::advance(Instant now) {
-    if (!shaft_.differs()) return;
-    if (!controlled_) return was_controlled_ ? shaft_.advance_without_power(now) : shaft_.set(place_, now);
-    if (outside_.stall) return shaft_.set(held_at_, now);
-    shaft_.advance(now, [this](Instant at) {
+Instant Follower::advance(Instant now, bool watched) {
+    if (!shaft_.differs()) return never;
+    if (!controlled_) return was_controlled_ ? shaft_.advance_without_power(now) : shaft_.set(place_, now), never;
+    if (outside_.stall) return shaft_.set(held_at_, now), never;
+    const auto demand = [this](Instant at) {
         const Point d = demand_.at(at);
         return d.position - offset_ - d.velocity * outside_.lag_ms / 1000;
+    };
+    const double moving = watched ? memory_.number(0x1473) : 0, standing = watched ? memory_.number(standing_) : 0;
+    return shaft_.advance_until(now, demand, [&](const ShaftPoint& p) {
+        const double most = demand_.moves(p.at) ? moving : standing;
+        return most > 0 && std::fabs(p.demand - p.position) > most;
     });
 }
 
@@ -58,8 +63,7 @@ Instant Follower::lag_limit(Instant now, Instant after) const {
     if (!controlled_ || (!outside_.stall && !shaft_.differs())) return never;
     if (!outside_.stall) {
         const double most = memory_.number(demand_.moves(now) ? 0x1473 : standing_);
-        if (most > 0 && std::fabs(shaft_.following_error()) > most) return now;
-        return swings(now) ? now + watch_step : never;
+        return most > 0 && std::fabs(shaft_.following_error()) > most ? now : never;
     }
     const double limit = memory_.number(0x1473);
     if (limit <= 0) return never;

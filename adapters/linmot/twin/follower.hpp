@@ -19,8 +19,9 @@ public:
           friction_(static_cast<double>(setup.manners.shaft.friction_increments)),
           shaft_(setup.manners.shaft, setup.seed) {}
 
-    /// The slider follows the demand of the time since the last call; called before each change of the demand.
-    void advance(Instant now);
+    /// The slider follows the demand of the time since the last call; called before each change of the demand. If the lag is `watched`, it
+    /// ends at the first millisecond at which the lag exceeds its limit, and returns it; otherwise `never`.
+    Instant advance(Instant now, bool watched = false);
     /// The slider is not yet where it will come to rest.
     [[nodiscard]] bool swings(Instant now) const;
     /// The mechanical place.

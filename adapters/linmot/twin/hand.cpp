@@ -114,6 +114,7 @@ std::vector<HandItem> Device::hand() const { return hand_items(conditions, *this
 
 std::string Device::set_hand(const std::string& name, const Value& value, Instant now, Out& out) {
     advance(now);
+    shown_.doubt();
     const auto n = as_number(value);
     if (!n || !std::isfinite(*n)) return name + " takes a number, true or false";
     if (auto answer = set_hand_row(conditions, *this, *this, {name, value, now, &out})) return *std::move(answer);

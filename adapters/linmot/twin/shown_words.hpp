@@ -10,17 +10,21 @@ namespace axisgate::linmot::twin {
 
 struct Words {
     std::uint16_t status = 0, state_var = 0, warn = 0;
+    bool operator==(const Words&) const = default;
 };
 
 class ShownWords {
 public:
     explicit ShownWords(const Manners& manners) : manners_(manners) {}
 
-    /// Advances the drive to `now`, and notes its words on the way there: on a grid of a sixteenth of the longest lateness, at least 1 ms.
+    /// Advances the drive to `now`, and notes each change of its words on the way there; changes that have no closed form are looked for
+    /// in steps of a sixteenth of the longest lateness, at least 2 ms.
     void advance(Drive& drive, Instant now);
     /// At the instant of the last advance.
-    [[nodiscard]] Words at(const Drive& drive, Instant now) const;
-    void forget() { notes_.clear(); }
+    [[nodiscard]] Words at(const Drive& drive, Instant now);
+    /// The drive has changed without a request.
+    void doubt() noexcept { noted_ = false; }
+    void forget() { notes_.clear(), noted_ = false; }
 
 private:
     struct Note {
@@ -28,10 +32,13 @@ private:
         Words words;
     };
     [[nodiscard]] Duration longest() const noexcept;
-    [[nodiscard]] Words before(const Drive& drive, Instant now, Duration late) const;
+    [[nodiscard]] Words before(Instant now, Duration late) const;
+    void note(const Words& words, Instant at);
 
     Manners manners_;
-    std::deque<Note> notes_;  ///< in order of time, at most 18
+    std::deque<Note> notes_;  ///< the changes within the longest lateness and the one before, in order of time
+    Instant looked_at_{};
+    bool noted_ = false;  ///< the words as of `looked_at_`
 };
 
 }  // namespace axisgate::linmot::twin

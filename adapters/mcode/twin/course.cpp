@@ -177,16 +177,23 @@ void Course::stalled(Instant now) {
     if (p_.settings[Word::SM] == 0) abort(now);
 }
 
+bool Course::watches_rotor() const noexcept {
+    return steps() && p_.settings.encoder_mode() && !stall_reported_ && p_.shaft.state() != Shaft::Rotor::held;
+}
+
+bool Course::may_lose_step() const noexcept { return steps() && p_.settings.hmt_mode() == 0 && !out_of_step_; }
+
+bool Course::stalls(Instant now, double stray) const noexcept {
+    const double shown = p_.shaft.rotor(now).position + p_.settings.direction() * stray * p_.settings.units_per_turn();
+    return std::abs(p_.shaft.commanded(now).position - shown) > p_.settings[Word::SF];
+}
+
 bool Course::notice(Instant now) {
-    if (!steps()) return false;
-    const Settings& s = p_.settings;
-    const bool stall = s.encoder_mode() && !stall_reported_ && p_.shaft.state() != Shaft::Rotor::held &&
-                       std::abs(p_.shaft.commanded(now).position - p_.shaft.measured(now).position) > s[Word::SF];
-    if (stall) {
+    if (watches_rotor() && stalls(now, p_.shaft.stray)) {
         stalled(now);
         return true;
     }
-    if (s.hmt_mode() != 0 || out_of_step_ || !p_.real.out_of_step()) return false;
+    if (!may_lose_step() || !p_.real.out_of_step()) return false;
     // It stands until the motion is over; without an encoder nobody notices.
     out_of_step_ = true;
     judge_rotor(now);

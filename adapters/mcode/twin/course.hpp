@@ -78,6 +78,12 @@ public:
     void stalled(Instant now);
     /// What the real rotor does at this millisecond: SF is passed, or the motor falls out of step. True: the motion has changed.
     [[nodiscard]] bool notice(Instant now);
+    /// An encoder compares rotor and command.
+    [[nodiscard]] bool watches_rotor() const noexcept;
+    /// The motor gives steps without a loop, and is in step.
+    [[nodiscard]] bool may_lose_step() const noexcept;
+    /// SF is passed by a rotor that is shown so far from its place, in turns.
+    [[nodiscard]] bool stalls(Instant now, double stray) const noexcept;
     void maintain(Instant now);
     void judge_rotor(Instant now);
     void run_torque(Instant now);

@@ -13,7 +13,7 @@ namespace axisgate::mcode::twin {
 namespace {
 constexpr int happenings_per_call = 256;
 /// A real rotor in motion is looked at this often, so that nobody learns of its stall much later.
-constexpr Duration rotor_pause = std::chrono::milliseconds(10);
+constexpr Duration rotor_pause = std::chrono::milliseconds(20);
 
 }  // namespace
 
@@ -35,22 +35,27 @@ void Motor::advance(Instant now) {
 bool Motor::follow(Instant until) {
     RealRotor& real = p_.real;
     if (!real.differs()) return true;
-    real.skip_to(until);
-    while (real.at() + axisgate::Shaft::step <= until) {
-        const Instant t = std::max(real.at() + axisgate::Shaft::step, last_);
-        const double turns = p_.shaft.turns(t);
-        if (p_.power.good()) {
-            real.step(turns, p_.settings.direction() * p_.shaft.rotor(t).velocity / p_.settings.units_per_turn());
-        } else {
-            real.step_without_power(turns);
-        }
-        p_.shaft.stray = real.stray();
-        if (!course_.notice(t)) continue;
-        last_ = t;
-        replan(t);
-        return false;
+    Instant ended = never;
+    if (p_.power.good()) {
+        const double per_turn = p_.settings.direction() / p_.settings.units_per_turn();
+        const auto field = [&](Instant at) {  // what it was before the last change is over
+            const Instant t = std::max(at, last_);
+            return RealRotor::Place{p_.shaft.turns(t), p_.shaft.rotor(t).velocity * per_turn};
+        };
+        const auto stalls = [&](Instant at, double shown) {
+            const Instant t = std::max(at, last_);
+            return course_.watches_rotor() && course_.stalls(t, shown - p_.shaft.turns(t));
+        };
+        ended = real.follow(until, !course_.may_lose_step(), field, stalls);
+    } else {
+        real.drift(until);
     }
-    return true;
+    const Instant t = std::max(last_, std::min(until, ended));
+    p_.shaft.stray = real.shown() - p_.shaft.turns(std::max(real.at(), last_));
+    if (ended == never || !course_.notice(t)) return true;
+    last_ = t;
+    replan(t);
+    return false;
 }
 
 void Motor::replan(Instant now) {

@@ -65,12 +65,14 @@ public:
         if (!mechanics_.differs()) return never;
         Instant passed = never;
         if (held_by_motor) {
-            mechanics_.advance(t, [&](Instant at) {
-                const double lag = std::abs(lost_ + extra_lag_ + (lags_ ? mechanics_.following_error() / increments : 0));
+            const auto place = [&](Instant at) { return demand(at) * increments; };
+            const auto passes = [&](const ShaftPoint& p) {
+                const double lag = std::abs(lost_ + extra_lag_ + (lags_ ? (p.demand - p.position) / increments : 0));
                 greatest_lag_ = std::max(greatest_lag_, lag);
-                if (passed == never && most > 0 && lags_ && lag > most) passed = at;
-                return demand(at) * increments;
-            });
+                return most > 0 && lags_ && lag > most;
+            };
+            passed = mechanics_.advance_until(t, place, passes);
+            if (passed != never) mechanics_.advance(t, place);
         } else if (!held_) {
             const double before = mechanics_.position();
             mechanics_.advance_without_power(t);
@@ -167,13 +169,15 @@ public:
 
 private:
     static constexpr double increments = 1000;  ///< of an AE, in the mechanics
-    static constexpr Duration lag_period = std::chrono::milliseconds(5);
+    static constexpr Duration lag_period = std::chrono::milliseconds(20);
 
     [[nodiscard]] double demand(Instant t) const noexcept { return position(t) - origin_ - lost_ - (held_ ? position(t) - held_at_ : 0); }
-    [[nodiscard]] axisgate::Shaft followed(Instant t) const noexcept {
-        axisgate::Shaft m = mechanics_;
-        if (t > followed_) m.advance(t, [&](Instant at) { return demand(at) * increments; });
-        return m;
+    /// A question about a later instant must not change the mechanics.
+    [[nodiscard]] const axisgate::Shaft& followed(Instant t) const noexcept {
+        if (t <= followed_) return mechanics_;
+        ahead_ = mechanics_;
+        ahead_.advance(t, [&](Instant at) { return demand(at) * increments; });
+        return ahead_;
     }
     /// The mechanics are where the counter says, at rest.
     void still() noexcept {
@@ -181,8 +185,9 @@ private:
     }
 
     axisgate::Shaft mechanics_;
-    bool lags_ = false;    ///< they can be behind the demand
-    double rest_lag_ = 0;  ///< AE, that may remain at rest
+    mutable axisgate::Shaft ahead_;  ///< a copy for questions about later instants
+    bool lags_ = false;              ///< they can be behind the demand
+    double rest_lag_ = 0;            ///< AE, that may remain at rest
     Instant followed_{};
     double rest_ = 0;
     double origin_ = 0;

@@ -22,10 +22,12 @@ void Signals::scan(Instant now) noexcept {
     const Instant tick = time_zero + (now - time_zero) / period_ * period_;
     if (tick <= scanned_) return;
     scanned_ = tick;
-    for (std::size_t i = 1; i <= elements_.inputs.count(); ++i)
-        inputs_.set(static_cast<std::int64_t>(i), input(static_cast<std::int64_t>(i)));
-    for (std::size_t i = 1; i <= elements_.outputs.count(); ++i)
-        outputs_.set(static_cast<std::int64_t>(i), output(static_cast<std::int64_t>(i)));
+    inputs_ = elements_.inputs;
+    outputs_ = elements_.outputs;
+    const std::int64_t stop = system_[sp::stop_input];
+    inputs_.set(stop, input(stop));
+    for (const std::int64_t own : {std::int64_t{system_[sp::malfunction_output]}, std::int64_t{system_[sp::readiness_output]}})
+        outputs_.set(own, output(own));
 }
 
 bool Signals::external_stop_powered() const noexcept {

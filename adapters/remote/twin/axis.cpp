@@ -33,25 +33,38 @@ void Axis::advance(Instant now) {
     follow(now);
 }
 
-/// Each millisecond, if a specimen has mechanics or watches its following error.
+/// If a specimen has mechanics or watches its following error.
 void Axis::follow(Instant now) {
     if (!real_.differs() && most_error_ == 0) return;
-    if (now - followed_ > Shaft::longest_gap) followed_ = now - Shaft::longest_gap;
-    while (on_) {
-        const Instant next = time_zero + ((followed_ - time_zero) / Shaft::step + 1) * Shaft::step;
-        if (next > now) return;
-        followed_ = next;
-        const double demand = shaft_.demand(next).position;
-        if (shaft_.held())
-            real_.set(shaft_.shaft(next).position, next);
-        else
-            real_.advance(next, [&](Instant t) { return shaft_.demand(t).position; });
-        if (most_error_ == 0 || std::fabs(demand - real_.position()) <= most_error_) continue;
-        rest(next);
-        fault_ = true;
+    if (on_) {
+        const Instant behind = shaft_.held() ? held_behind(now) : follow_demand(now);
+        if (behind != never) {
+            rest(behind);
+            fault_ = true;
+        }
     }
-    if (was_on_ && !shaft_.held()) real_.advance_without_power(now);
+    if (!on_ && was_on_ && !shaft_.held()) real_.advance_without_power(now);
     followed_ = std::max(followed_, now);
+}
+/// The first instant at which it is too far behind; `never`: it is not until then.
+Instant Axis::follow_demand(Instant now) {
+    const auto demand = [this](Instant t) { return shaft_.demand(t).position; };
+    if (most_error_ == 0) return real_.advance(now, demand), never;
+    return real_.advance_until(now, demand, [this](const ShaftPoint& p) { return std::fabs(p.demand - p.position) > most_error_; });
+}
+/// As long as its demand moves, a shaft that is held gets further behind; each millisecond is looked at.
+Instant Axis::held_behind(Instant now) {
+    const double here = shaft_.shaft(now).position;
+    const auto too_far = [&](Instant t) { return most_error_ != 0 && std::fabs(shaft_.demand(t).position - here) > most_error_; };
+    Instant behind = never;
+    if (too_far(now) || (most_error_ != 0 && shaft_.moves(followed_))) {
+        if (now - followed_ > Shaft::longest_gap) followed_ = now - Shaft::longest_gap;
+        for (Instant t = time_zero + ((followed_ - time_zero) / Shaft::step + 1) * Shaft::step; t <= now && behind == never;
+             t += Shaft::step)
+            if (too_far(t)) behind = t;
+    }
+    real_.set(here, std::min(now, behind));
+    return behind;
 }
 
 void Axis::rest(Instant now) {

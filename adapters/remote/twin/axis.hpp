@@ -28,6 +28,8 @@ private:
     [[nodiscard]] mirror::Answer move(const mirror::Order& order, Instant now);
     void rest(Instant now);
     void follow(Instant now);
+    [[nodiscard]] Instant follow_demand(Instant now);
+    [[nodiscard]] Instant held_behind(Instant now);
     [[nodiscard]] bool powered(Instant now) const { return on_ && now >= on_from_; }
     /// Of the load; without mechanics of a specimen the demand.
     [[nodiscard]] double place(Instant now) const { return real_.differs() ? real_.load() : shaft_.demand(now).position; }

@@ -37,23 +37,26 @@ void AxisShaft::follow_pulses(Instant now) noexcept {
         a_.followed_ = now;
         return;
     }
-    if (now - a_.followed_ > Shaft::longest_gap) a_.followed_ = now - Shaft::longest_gap;
-    for (;;) {
-        const Instant next = time_zero + ((a_.followed_ - time_zero) / Shaft::step + 1) * Shaft::step;
-        if (next > now) return;
-        a_.followed_ = next;
-        if (a_.out_of_step_) {
-            a_.real_.set(a_.real_.position(), next);
-            if (a_.profile_.at(next).velocity == 0) slip_poles(next);
-            continue;
-        }
-        a_.real_.advance(next, demand);
-        const bool saturated = a_.real_.force() >= 1;
-        if (a_.mechanics_.closed_loop)
-            a_.overloaded_ = a_.overloaded_ || (saturated && a_.stall_armed_ && a_.real_.lack() >= a_.mechanics_.tolerance);
-        else
-            a_.out_of_step_ = saturated && a_.real_.lack() > 2 * a_.mechanics_.pulses_per_turn / 200;
+    const double most = a_.mechanics_.closed_loop ? static_cast<double>(a_.mechanics_.tolerance) : 2 * a_.mechanics_.pulses_per_turn / 200;
+    const auto fails = [&](const ShaftPoint& p) { return p.force >= 1 && a_.real_.lack(p) >= most; };
+    if (a_.mechanics_.closed_loop) {
+        const bool looks = a_.stall_armed_ && !a_.overloaded_;
+        if (looks && a_.real_.advance_until(now, demand, fails) != never) a_.overloaded_ = true;
+        a_.real_.advance(now, demand);
+    } else {
+        if (!a_.out_of_step_) a_.out_of_step_ = a_.real_.advance_until(now, demand, fails) != never;
+        if (a_.out_of_step_) stand_until(now);
     }
+    a_.followed_ = now;
+}
+
+/// Out of step it stands until the pulses do; then the next pole catches it.
+void AxisShaft::stand_until(Instant now) noexcept {
+    const Instant standstill = std::max(a_.profile_.end(), a_.real_.point().at);
+    a_.real_.set(a_.real_.position(), std::min(now, standstill));
+    if (standstill > now) return;
+    slip_poles(standstill);
+    a_.real_.advance(now, [this](Instant t) { return a_.profile_.at(t).position; });
 }
 
 void AxisShaft::slip_poles(Instant now) noexcept {

@@ -21,6 +21,7 @@ public:
     /// It rests at the end of the profile.
     void fit(Instant now) noexcept;
     void follow_pulses(Instant now) noexcept;
+    void stand_until(Instant now) noexcept;
     void slip_poles(Instant now) noexcept;
     /// The driver catches a shaft that has drifted: in closed loop its place becomes the demand, in open loop nobody has counted it.
     void drift_ends(Instant now) noexcept;

@@ -156,10 +156,10 @@ void Device::receive(const Telegram& t, Instant now, Out& out) {
         instruct(t, now, out);
         return settle(now, out);
     }
-    Out answer;
-    instruct(t, now, answer);
+    answer_.frames.clear();
+    instruct(t, now, answer_);
     settle(now, out);
-    out.frames.insert(out.frames.end(), answer.frames.begin(), answer.frames.end());
+    out.frames.insert(out.frames.end(), answer_.frames.begin(), answer_.frames.end());
 }
 
 void Device::on_deadline(Instant now, Out& out) { settle(std::max(now, last_), out); }

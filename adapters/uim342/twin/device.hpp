@@ -183,6 +183,7 @@ private:
 
     Instant boot_end_ = never;
     Instant actions_at_ = never;
+    Out answer_;  ///< of an instruction whose notification is sent before it
     Instant last_ = Instant::min();
     Instant next_ = never;
 };

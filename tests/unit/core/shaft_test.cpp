@@ -218,6 +218,106 @@ TEST(Shaft, ItDoesNotMatterWhenItIsAsked) {
     EXPECT_DOUBLE_EQ(often.shown(), seldom.shown());
 }
 
+/// The loop of the shaft, in steps of a microsecond.
+struct Fine {
+    double x = 0, v = 0;
+    template <class Demand>
+    void until(double t, double period, double damping, Demand&& demand) {
+        for (; at < t; at += 1e-6) {
+            const double d = demand(at + 0.5e-6);
+            v += ((d - x) / (period * period) - 2 * damping / period * v) * 1e-6;
+            x += v * 1e-6;
+        }
+    }
+    double at = 0;
+};
+
+TEST(Shaft, BetweenItsEventsTheSolutionIsThatOfTheLoop) {
+    const auto ramp = [](double t) {  // accelerates for 100 ms, moves for 200 ms, brakes
+        const double a = 20'000, up = std::min(t, 0.1), even = std::clamp(t - 0.1, 0.0, 0.2), down = std::clamp(t - 0.3, 0.0, 0.1);
+        return a * up * up / 2 + a * 0.1 * even + a * 0.1 * down - a * down * down / 2;
+    };
+    for (const std::int64_t damping : {40, 100, 200}) {
+        ShaftFreedoms f = only(&ShaftFreedoms::follow_ms, 10);
+        f.damping_percent = damping;
+        Shaft s = at_rest(f);
+        Fine fine;
+        for (int ms = 7; ms < 500; ms += 7) {
+            s.advance(begin + ms * 1ms, [&](Instant t) { return ramp(t_of(t)); });
+            fine.until(ms * 0.001, 0.01, static_cast<double>(damping) / 100, ramp);
+            EXPECT_NEAR(s.position(), fine.x, 0.5) << damping << " %, " << ms << " ms";
+            EXPECT_NEAR(s.velocity(), fine.v, 20) << damping << " %, " << ms << " ms";
+        }
+    }
+}
+
+TEST(Shaft, ItIsCalculatedOnlyAsOftenAsItIsAskedFor) {
+    ShaftFreedoms f = only(&ShaftFreedoms::follow_ms, 10);
+    f.noise_increments = f.backlash_increments = 2;
+    int calls = 0;
+    Shaft s = at_rest(f);
+    for (int i = 1; i <= 50; ++i)
+        s.advance(begin + i * 20ms, [&](Instant t) { return ++calls, 1000 * t_of(t); });
+    EXPECT_LT(calls, 300) << "a second of a motion, asked for fifty times";
+    s.advance(begin + 2s, [](Instant) { return 1000.0; });
+    ASSERT_TRUE(s.rests());
+    calls = 0;
+    s.advance(begin + 12s, [&](Instant) { return ++calls, 1000.0; });
+    EXPECT_LT(calls, 20) << "ten seconds at rest";
+    EXPECT_DOUBLE_EQ(s.position(), 1000);
+}
+
+TEST(Shaft, AMotionWithinALongRestIsNotOverlooked) {
+    Shaft s = at_rest(only(&ShaftFreedoms::follow_ms, 10));
+    s.advance(begin + 1s, [](Instant) { return 0.0; });
+    s.advance(begin + 4s, [](Instant t) { return t_of(t) < 3 ? 0.0 : 500.0; });
+    EXPECT_DOUBLE_EQ(s.position(), 500);
+    s.advance(begin + 4s + 20ms, [](Instant t) { return 500 + 1000 * (t_of(t) - 4); });
+    EXPECT_NEAR(s.position(), 506, 3) << "it has just begun to follow";
+}
+
+TEST(Shaft, ItEndsAtTheFirstMillisecondOfACondition) {
+    const auto far = [](const ShaftPoint& p) { return p.demand - p.position > 100; };
+    for (const auto asked : {3ms, 20ms, 700ms}) {
+        Shaft s = at_rest(only(&ShaftFreedoms::most_acceleration, 1000));
+        Instant ended = never;
+        for (Instant now = begin + asked; ended == never && now < begin + 2s; now += asked)
+            ended = s.advance_until(
+                now, [](Instant t) { return 1000 * t_of(t) * t_of(t); }, far);  // 2000/s^2
+        EXPECT_NEAR(seconds(ended - begin), std::sqrt(100 / (1000 - 500.0)), 0.004) << "asked for each " << asked.count() << " ms";
+        EXPECT_EQ(s.point().at, ended);
+        EXPECT_GT(s.following_error(), 100);
+        EXPECT_LT(s.following_error(), 102);
+    }
+    Shaft soft = at_rest(only(&ShaftFreedoms::follow_ms, 20));
+    const Instant ended = soft.advance_until(
+        begin + 1s, [](Instant t) { return 10'000 * t_of(t); }, far);
+    EXPECT_NEAR(seconds(ended - begin), 0.011, 0.002) << "where nothing but the condition ends the linear movement";
+    EXPECT_LT(soft.following_error(), 112);
+}
+
+TEST(Shaft, ADemandThatTakesAnotherCourseIsFollowedFromThere) {
+    for (const auto every : {30'000us, 30'500us}) {
+        Shaft s = at_rest(only(&ShaftFreedoms::follow_ms, 2));
+        constexpr double speed = 10'000, lag = 4e-3 * speed;
+        double from = 0;
+        Instant since = begin;
+        // An order that continues the motion; of the time before, it knows nothing.
+        const auto demand = [&](Instant t) { return from + speed * std::max(0.0, seconds(t - since)); };
+        s.advance(begin + every, demand);
+        for (int i = 1; i < 20; ++i) {
+            const double here = demand(begin + i * every);
+            since = begin + i * every, from = here;
+            for (const auto after : {1ms, 4ms, 15ms, 29ms}) {
+                s.advance(since + after, demand);
+                EXPECT_NEAR(s.following_error(), lag, 3) << i << ", " << after.count() << " ms after it";
+                EXPECT_NEAR(s.velocity(), speed, 700) << i << ", " << after.count() << " ms after it";
+            }
+            s.advance(since + every, demand);
+        }
+    }
+}
+
 TEST(Shaft, ALongGapIsNotCalculated) {
     ShaftFreedoms f = only(&ShaftFreedoms::follow_ms, 20);
     f.friction_increments = 5;

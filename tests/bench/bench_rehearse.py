@@ -23,15 +23,21 @@ def site_of(axis):
     return {"lines": [line], "drives": [{k: v for k, v in drive.items() if k not in ("description", "family")}], "axes": [axis], "mappings": []}
 
 
-def recipe_of(axis):
-    """Twenty steps: on, four moves with a wait and two checks each, and off."""
-    steps = [{"enable": {"axis": axis}}, {"wait_for": {"axis": axis, "point": "state", "is": "operation_enabled", "timeout_s": 20}}]
+def recipe_of(axis, family):
+    """Twenty steps: on, four moves with a wait and two checks each, and the present position becomes 0 before them, or off after them.
+
+    A drive may need two seconds until its status shows that it is on. The counter of an incremental encoder begins anywhere; a CiA 402 drive needs
+    another mode to set it, and does not count from before.
+    """
+    steps = [{"enable": {"axis": axis}}, {"wait_s": 2.5}, {"wait_for": {"axis": axis, "point": "state", "is": "operation_enabled", "timeout_s": 20}}]
+    if family != "cia402":
+        steps += [{"command": {"axis": axis, "command": "set_position", "position": 0}}]
     for position in (1, 3, 2, 4):
         steps += [{"command": {"axis": axis, "command": "move_absolute", "position": position, "velocity": 10, "wait_s": 60}},
                   {"wait_for": {"axis": axis, "point": "moving", "is": False, "timeout_s": 20}},
                   {"wait_s": 0.2},
                   {"check": {"axis": axis, "point": "position", "is": position, "tolerance": 0.5}}]
-    return {"steps": steps + [{"disable": {"axis": axis}}, {"wait_s": 0.1}]}
+    return {"steps": steps if family != "cia402" else steps + [{"disable": {"axis": axis}}]}
 
 
 def main(program):
@@ -40,7 +46,7 @@ def main(program):
         with tempfile.TemporaryDirectory() as folder:
             site, recipe = pathlib.Path(folder) / "site.json", pathlib.Path(folder) / "twenty.json"
             site.write_text(json.dumps(site_of(axis)))
-            document = recipe_of(axis)
+            document = recipe_of(axis, family)
             assert len(document["steps"]) == 20, len(document["steps"])
             recipe.write_text(json.dumps(document))
             begun = time.monotonic()

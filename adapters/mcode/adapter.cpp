@@ -296,6 +296,12 @@ bool LineAdapter::stop_all_at_once(Turn& t) {
     return true;
 }
 
+/// A stop is sent at once for the first time, whatever the line carries: on lines with a pair for each direction the drive hears it. Its
+/// repetitions find the gaps.
+bool LineAdapter::stop_unsent(Instant now) {
+    return drives().find([now](const Drive& d) { return d.wants(now) == drive::Want::urgent; }) != nullptr;
+}
+
 /// Each drive's wish, as far as the line lets it have one: line.setup keeps the line to itself but from stops.
 void LineAdapter::settle_all(Instant now) {
     const Drive* naming = drives().find([](const Drive& d) { return d.line_setup.naming(); });
@@ -311,7 +317,7 @@ void LineAdapter::settle_all(Instant now) {
 void LineAdapter::end(Turn& t) {
     if (!up()) return;
     looked_at_ = t.now;
-    while (!flight_.drive && gaps_.from(t.now) <= t.now) {
+    while (!flight_.drive && (gaps_.from(t.now) <= t.now || stop_unsent(t.now))) {
         settle_all(t.now);
         const auto slot = bus_.turns.next(t.now);
         if (!slot) return;

@@ -37,6 +37,7 @@ private:
     void settle_all(Instant now);
     [[nodiscard]] bool held(const Drive& drive, Instant now) const noexcept;
     [[nodiscard]] bool stop_all_at_once(Turn& t);
+    [[nodiscard]] bool stop_unsent(Instant now);
     // one exchange
     void start(Drive& drive, Turn& t);
     void send(std::string_view bytes, Priority priority, Turn& t, Ticket order = no_ticket) const;

@@ -1,6 +1,8 @@
 // A drive whose program prints several times in a second, on one pair of wires: a request that meets a printed line is lost with it.
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "adapters/mcode/tests/line_bench.hpp"
 
 namespace axisgate::mcode::test {
@@ -47,6 +49,27 @@ TEST(McodeChatter, AStopIsConfirmedBesideAProgramThatPrintsAllTheTime) {
             }
         }
     }
+}
+
+TEST(McodeChatter, AStopIsSentAtOnceAlthoughTheLastRequestWasLost) {
+    constexpr Duration timeout = 120ms;
+    Chatter b(timeout, {{"chatter_ms", "200"}});  // the halt leaves the program running
+    ASSERT_TRUE(b.online());
+    Duration longest{};
+    for (int i = 0; i < 60; ++i) {
+        b.run(1s + i * 17ms);
+        b.sent.clear();
+        const Instant asked = b.now;
+        (void)b.command(Halt{});
+        const auto stop = [&] {
+            return std::ranges::any_of(b.sent, [](const auto& s) { return s.bytes.find("SL") != std::string::npos; });
+        };
+        while (!stop() && b.now < asked + 2s)
+            b.run(1ms);
+        longest = std::max(longest, b.now - asked);
+        b.run(3s);
+    }
+    EXPECT_LE(longest, timeout + 100ms) << "the exchange that is under way ends first, and nothing else";
 }
 
 }  // namespace

@@ -180,9 +180,9 @@ void Shaft::one_step(ShaftPoint& p, double demand) const noexcept {
     const ShaftPoint from = p;
     move_freely(p, 1, half_way, demand);
     if (most_ > 0) {
-        const double stops_from = std::sqrt(2 * most_ * std::abs(error));
-        const double away = std::max(0.0, error < 0 ? -p.demand_velocity : p.demand_velocity);
-        const double wanted = error / (2 * damping_ * period_);
+        const double left = demand - p.position, wanted = left / (2 * damping_ * period_);
+        const double stops_from = std::sqrt(2 * most_ * std::abs(left));
+        const double away = std::max(0.0, left < 0 ? -p.demand_velocity : p.demand_velocity);
         double a = (p.velocity - from.velocity) / step_s;
         const bool brakes = std::abs(wanted) > away + stops_from;
         if (brakes) {  // a speed loop towards the limit, integrated implicitly, which is stable for every time constant and damping
@@ -218,7 +218,7 @@ void Shaft::advance_without_power(Instant now) {
 
 double Shaft::shown() const noexcept {
     if (noise_span_ == 0) return now_.load;
-    const std::uint64_t draw = (specimen_draw_at(noise_, static_cast<std::uint64_t>(ns_of(now_.at))) >> 32) * noise_span_ >> 32;
+    const std::uint64_t draw = specimen_draw_at(noise_, static_cast<std::uint64_t>(ns_of(now_.at))) % noise_span_;
     return now_.load + static_cast<double>(draw) - static_cast<double>(noise_span_ / 2);
 }
 

@@ -114,6 +114,7 @@ public:
     void on_deadline(Instant now, Out& out) override { run(now, out); }
     [[nodiscard]] Instant deadline() const override {
         if (boots()) return boot_end_;
+        due_known_ = false;
         return std::min({due(), switch_on_at_, waiting_.empty() ? never : waiting_.front().at});
     }
 
@@ -162,7 +163,7 @@ private:
     static constexpr std::size_t most_waiting = 1024;
     [[nodiscard]] std::uint64_t place(std::string_view of) const noexcept { return specimen_place(manners_.seed, of); }
     [[nodiscard]] bool boots() const noexcept { return memory_.has_value(); }
-    /// The twin's own deadline, which changes with calls alone.
+    /// The twin's own deadline, as of the last question for a deadline or the last call that may have changed it.
     [[nodiscard]] Instant due() const {
         if (!due_known_) due_ = twin_->deadline();
         due_known_ = true;

@@ -372,7 +372,7 @@ void Axis::plan(Instant now) noexcept {
         }
     }
     if (speed_armed_ && !held_) too_fast_at_ = profile_.first_faster(now, most_turns_per_s * mechanics_.shaft_per_turn() * (1 + 1e-9));
-    constexpr Duration watch = std::chrono::milliseconds(20);
+    constexpr Duration watch = std::chrono::milliseconds(10);
     if (free_.most_acceleration != 0 && mechanics_.closed_loop && stall_armed_ && AxisShaft::lags(*this)) watch_at_ = now + watch;
     deadline_ = std::min({deadline_, stall_at_, too_fast_at_, watch_at_});
 }

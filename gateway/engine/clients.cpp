@@ -13,6 +13,8 @@ namespace {
 /// A motion that stands still before its target was ended by something else. The first feedback after the start does not count, because a
 /// drive may need a moment to begin to move.
 constexpr Duration rest_before_interrupted = std::chrono::milliseconds(250);
+/// From standstill until a drive shows that it has reached its target: the window's time is a setting of the drive.
+constexpr Duration longest_settling = std::chrono::milliseconds(2500);
 constexpr Duration reset_limit = std::chrono::seconds(3);
 
 /// The observed progress of a command whose end is watched, with the reason if it has failed.
@@ -34,6 +36,10 @@ Progress in_fault(const Axis& a) {
 
 Progress not_enabled(const Axis& a) { return failed(Reason::interrupted, "axis {} is {} now", a.spec.name, name_of(a.profile.state())); }
 
+/// It rests and says nothing of its target. A drive may show that it is in position some time after the standstill.
+bool has_stopped(const Axis& a, Instant accepted_at) {
+    return a.rests_from && a.profile.feedback().at - std::max(*a.rests_from, accepted_at) > longest_settling;
+}
 bool rests_since(const AxisFeedback& f, Instant accepted_at) { return !f.moving && f.at - accepted_at > rest_before_interrupted; }
 
 Progress of_motion(const Axis& a, Instant accepted_at) {
@@ -41,7 +47,7 @@ Progress of_motion(const Axis& a, Instant accepted_at) {
     if (f.fault) return in_fault(a);
     if (f.target_reached && !f.moving) return done;
     if (a.profile.state() != PowerState::operation_enabled) return not_enabled(a);
-    if (rests_since(f, accepted_at))
+    if (has_stopped(a, accepted_at))
         return failed(Reason::interrupted, "axis {} has stopped before its target (at {} increments)", a.spec.name, f.position);
     return going_on;
 }

@@ -314,6 +314,7 @@ struct Axis {
     Stops stops;
     StopLatch latch;
     Watch watch;
+    std::optional<Instant> rests_from;   ///< since when its feedback shows rest
     Instant moves_since{};               ///< since when it moves without a record, or against its state; the beginning of time: it does not
     std::int64_t speed_then = 0;         ///< speed at that instant, increments/s
     bool contradicts = false;            ///< it moves against its state, and an alarm has reported it

@@ -113,6 +113,8 @@ void Routing::feedback(Side& side, AxisId id, const AxisFeedback& value, Instant
     auto next = a->profile.on_feedback(value, now);
     a->stale = now - value.at > a->drive->line->stale_after;
     if (first) a->last_deceleration = 0;  // its power may have been off
+    if (a->profile.feedback().moving || first) a->rests_from.reset();
+    if (!a->profile.feedback().moving && !a->rests_from) a->rests_from = value.at;
     if (bool& lost = a->drive->device_lost_while_commanded; lost && !side.twin) {
         // The drive has returned and has reported that no motion is in progress: its next silence is judged by its state then.
         lost = std::ranges::any_of(a->drive->axes, [&](AxisId x) {

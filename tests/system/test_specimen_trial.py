@@ -1,6 +1,7 @@
 """Specimens that earlier programs did not serve (docs/decisions/engine-and-twins.md has the list), tried by specimen_trial.py on a CAN bus of processes."""
 import concurrent.futures
 import types
+import unittest.mock
 
 import harness
 import specimen_trial
@@ -18,10 +19,13 @@ def test_drives_that_earlier_programs_did_not_serve():
 
 
 def test_the_trial_tells_a_drive_that_is_not_found():
-    find_s, specimen_trial.FIND_S = specimen_trial.FIND_S, 3
-    try:
-        plan = types.SimpleNamespace(program=harness.PROGRAM, twins=harness.PROGRAM, can=None, watches=False, most=3)
-        name, _, failures = specimen_trial.play(plan, "late", None, {"boot_ms": "6000"})
-    finally:
-        specimen_trial.FIND_S = find_s
-    assert name == "late" and len(failures) == 1 and failures[0][0] == "find" and "does not answer" in failures[0][1], failures
+    plan = types.SimpleNamespace(program=harness.PROGRAM, twins=harness.PROGRAM, can=None, watches=False, most=3)
+    of_bench = specimen_trial.Bench.site
+
+    def with_another_node(bench, patience):
+        site = of_bench(bench, patience)
+        site["drives"][0]["address"] = 6
+        return site
+    with unittest.mock.patch.object(specimen_trial, "FIND_S", 3), unittest.mock.patch.object(specimen_trial.Bench, "site", with_another_node):
+        _, _, failures = specimen_trial.play(plan, "0", "0", {})
+    assert len(failures) == 1 and failures[0][0] == "find" and "does not answer" in failures[0][1], failures

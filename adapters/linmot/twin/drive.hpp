@@ -20,7 +20,6 @@ public:
 
     // --- power, software ------------------------------------------------------------------------------------------------
     void power_on(Instant now);
-    void power_off(Instant now) { stop_software(now); }
     void stop_software(Instant now);
     void start_software(Instant now);
     [[nodiscard]] bool software_runs() const noexcept { return states_.running(); }

@@ -128,7 +128,7 @@ void Device::switch_power(bool on, Instant now) {
         deaf_until_ = now;
         start(now);
     } else {
-        drive_.power_off(now);
+        drive_.stop_software(now);
         reply_at_ = never;
     }
 }

@@ -177,23 +177,22 @@ void Course::stalled(Instant now) {
     if (p_.settings[Word::SM] == 0) abort(now);
 }
 
-bool Course::watches_rotor() const noexcept {
-    return steps() && p_.settings.encoder_mode() && !stall_reported_ && p_.shaft.state() != Shaft::Rotor::held;
+Course::Watched Course::watched() const noexcept {
+    return {steps() && p_.settings.encoder_mode() && !stall_reported_ && p_.shaft.state() != Shaft::Rotor::held,
+            steps() && p_.settings.hmt_mode() == 0 && !out_of_step_};
 }
 
-bool Course::may_lose_step() const noexcept { return steps() && p_.settings.hmt_mode() == 0 && !out_of_step_; }
-
-bool Course::stalls(Instant now, double stray) const noexcept {
-    const double shown = p_.shaft.rotor(now).position + p_.settings.direction() * stray * p_.settings.units_per_turn();
-    return std::abs(p_.shaft.commanded(now).position - shown) > p_.settings[Word::SF];
+bool stalls(const Parts& p, Instant now, double stray) noexcept {
+    const double shown = p.shaft.rotor(now).position + p.settings.direction() * stray * p.settings.units_per_turn();
+    return std::abs(p.shaft.commanded(now).position - shown) > p.settings[Word::SF];
 }
 
 bool Course::notice(Instant now) {
-    if (watches_rotor() && stalls(now, p_.shaft.stray)) {
+    if (watched().rotor && stalls(p_, now, p_.shaft.stray)) {
         stalled(now);
         return true;
     }
-    if (!may_lose_step() || !p_.real.out_of_step()) return false;
+    if (!watched().step || !p_.real.out_of_step()) return false;
     // It stands until the motion is over; without an encoder nobody notices.
     out_of_step_ = true;
     judge_rotor(now);

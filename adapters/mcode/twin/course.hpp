@@ -78,12 +78,11 @@ public:
     void stalled(Instant now);
     /// What the real rotor does at this millisecond: SF is passed, or the motor falls out of step. True: the motion has changed.
     [[nodiscard]] bool notice(Instant now);
-    /// An encoder compares rotor and command.
-    [[nodiscard]] bool watches_rotor() const noexcept;
-    /// The motor gives steps without a loop, and is in step.
-    [[nodiscard]] bool may_lose_step() const noexcept;
-    /// SF is passed by a rotor that is shown so far from its place, in turns.
-    [[nodiscard]] bool stalls(Instant now, double stray) const noexcept;
+    struct Watched {
+        bool rotor = false;  ///< an encoder compares it with the command
+        bool step = false;   ///< the motor gives steps without a loop, and is in step
+    };
+    [[nodiscard]] Watched watched() const noexcept;
     void maintain(Instant now);
     void judge_rotor(Instant now);
     void run_torque(Instant now);
@@ -118,5 +117,8 @@ private:
     bool stall_flag_ = false;
     bool stall_reported_ = false;
 };
+
+/// SF is passed by a rotor that is shown so far from its place, in turns.
+[[nodiscard]] bool stalls(const Parts& parts, Instant now, double stray) noexcept;
 
 }  // namespace axisgate::mcode::twin

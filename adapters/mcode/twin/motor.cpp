@@ -44,9 +44,9 @@ bool Motor::follow(Instant until) {
         };
         const auto stalls = [&](Instant at, double shown) {
             const Instant t = std::max(at, last_);
-            return course_.watches_rotor() && course_.stalls(t, shown - p_.shaft.turns(t));
+            return course_.watched().rotor && twin::stalls(p_, t, shown - p_.shaft.turns(t));
         };
-        ended = real.follow(until, !course_.may_lose_step(), field, stalls);
+        ended = real.follow(until, !course_.watched().step, field, stalls);
     } else {
         real.drift(until);
     }

@@ -1,7 +1,6 @@
-// When a drive answers, compares its parameters with those that were written through the gateway, and with those of its DCF, if the site says
-// so. An event reports an
-// axis with differences, and the stored values are written if the site says that, too. Parameters that act at once or by which the drive is
-// reached are never written, and nothing is written while the axis moves.
+// When a drive answers, compares its parameters with those that were written through the gateway, and with those of its DCF, if the site
+// says so. An event reports an axis with differences, and the stored values are written if the site says that, too. Parameters that act at
+// once or by which the drive is reached are never written, and nothing is written while the axis moves.
 #pragma once
 
 #include <memory>

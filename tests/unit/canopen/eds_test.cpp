@@ -182,9 +182,10 @@ TEST(EdsNotes, AnOddRowIsToldAndTheFileIsRead) {
 }
 TEST(EdsNotes, RowsOfMakersThatNeedNone) {
     // CR alone, comments behind words and numbers, empty keys, NODEID without its sign.
-    std::string text = head + "[1000]\nParameterName=a\nDataType=7 ; UNSIGNED32\nAccessType=RW ; and more\nLowLimit=\nHighLimit= ; none\n"
-                              "DefaultValue=;\nPDOMapping=\n[2000]\nDataType=7\nAccessType=ro\nDefaultValue=NodeID + 0x10\n"
-                              "[OptionalObjects]\nSupportedObjects=1\n1=0x2000\n2=\n";
+    std::string text = head +
+                       "[1000]\nParameterName=a\nDataType=7 ; UNSIGNED32\nAccessType=RW ; and more\nLowLimit=\nHighLimit= ; none\n"
+                       "DefaultValue=;\nPDOMapping=\n[2000]\nDataType=7\nAccessType=ro\nDefaultValue=NodeID + 0x10\n"
+                       "[OptionalObjects]\nSupportedObjects=1\n1=0x2000\n2=\n";
     const Read usual(text);
     std::ranges::replace(text, '\n', '\r');
     const Read r(text);

@@ -26,12 +26,11 @@ void NmtWatch::stopped(Turn& t) {
                                 "somebody else has stopped the node (NMT stop): nmt_start starts it again", t.out);
         for (const auto& a : drive_.axes)
             a->node_stopped(t);
-        const std::string text = fmt::format(
-            "somebody else has stopped the node (NMT stop): it answers nothing and shows nothing but its heartbeat{}; nmt_start starts "
-            "it again",
-            turns   ? ", while it may be turning: it is started again, to be seen"
-            : again ? "; it is started again (option restart_stopped)"
-                    : "");
+        const std::string text =
+            fmt::format("somebody else has stopped the node (NMT stop): it answers nothing and shows nothing but its heartbeat{}",
+                        turns   ? ", while it may be turning: it is started again, to be seen"
+                        : again ? "; it is started again, as the option restart_stopped says, three times a minute at most"
+                                : "; nmt_start starts it again");
         drive_.notice(Severity::warning, "nmt_stopped", 0, fmt::format("{}: {}", node.setup.name, text), t);
         node.presence.report(text, t.out);
     }

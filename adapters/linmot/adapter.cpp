@@ -71,7 +71,7 @@ void LineAdapter::leaving(Drive& d, Turn& t) {
 void LineAdapter::line_changed(Turn& t) {
     TurnsAdapter::line_changed(t);
     bus_.shared.line_changed();
-    quiet_until_ = t.now;
+    quiet_until_ = stop_from_ = t.now;
     waits_for_silence_ = false;
     free_line();
 }
@@ -83,7 +83,9 @@ void LineAdapter::arrived(const Frame& frame, Turn& t) {
     framer_.push(
         frame.data().subspan(overlapped), [&](const Telegram& telegram, std::span<const std::uint8_t>) { received(telegram, t); },
         [&](std::span<const std::uint8_t>, std::string_view) { ++bus_.counters.garbled; });
-    if (!drives().find([](const Drive& d) { return d.stream.on(); })) quiet_until_ = bus_.shared.silent_at(t.now);
+    if (drives().find([](const Drive& d) { return d.stream.on(); })) return;
+    quiet_until_ = bus_.shared.silent_at(t.now);
+    stop_from_ = bus_.shared.stop_at(t.now);
 }
 
 void LineAdapter::received(const Telegram& telegram, Turn& t) {
@@ -132,11 +134,13 @@ void LineAdapter::on_deadline(Instant now, Out& out) {
 
 Instant LineAdapter::deadline() const {
     const Instant at = TurnsAdapter::deadline();
-    return waits_for_silence_ ? std::min(at, quiet_until_) : at;
+    return waits_for_silence_ ? std::min(at, silent_at_) : at;
 }
 
 void LineAdapter::give(Turn& t) {
-    waits_for_silence_ = up() && !asked_ && t.now < quiet_until_;
+    const bool stops = drives().find([&](const Drive& d) { return d.wants(t.now) == drive::Want::urgent; }) != nullptr;
+    silent_at_ = stops ? stop_from_ : quiet_until_;
+    waits_for_silence_ = up() && !asked_ && t.now < silent_at_;
     while (!asked_ && !waits_for_silence_) {
         const auto slot = bus_.turns.next(t.now);
         if (!slot) return;

@@ -36,6 +36,8 @@ private:
     Framer framer_;
     Drive* asked_ = nullptr;  ///< its answer is awaited
     Instant quiet_until_{};   ///< no request before that, on a line on which others speak
+    Instant stop_from_{};     ///< and no stop before that
+    Instant silent_at_{};     ///< the one of them that counts now
     bool waits_for_silence_ = false;
 };
 

@@ -40,6 +40,10 @@ public:
     /// A request may be sent from this instant on, unless further bytes arrive: after 15 ms of silence, or 100 ms without any. Where
     /// telegrams come in pieces, the silence is longer than the pauses inside of them, and it is awaited for two of the longest telegrams.
     [[nodiscard]] Instant silent_at(Instant now) const noexcept { return silent_at(now, busy_since_); }
+    /// The same for a stop that has not been sent yet: it does not wait for the end of a telegram that comes in pieces.
+    [[nodiscard]] Instant stop_at(Instant now) const noexcept {
+        return shared(now) ? std::min(heard_at_ + shortest_silence, busy_since_ + patience) : now;
+    }
     /// When a request whose time-out has expired at `since` is sent for the `n`th time.
     [[nodiscard]] Instant repeat_at(Instant now, Instant since, int n) const noexcept {
         return shared(now) ? std::max(since + n * step, silent_at(now, since)) : since;

@@ -48,7 +48,8 @@ struct ShaftTransition {
 
 /// Its answers are those of whole milliseconds and do not depend on the instants at which they are asked for. Where its loop is linear it
 /// advances in strides with the exact solution of the loop for a demand of second order; milliseconds are calculated one by one where
-/// force or friction end that. A shaft that rests is passed over in growing steps for as long as its demand is the same. Of a gap of more
+/// force or friction end that. A shaft that rests is passed over in growing steps for as long as its demand is the same at
+/// their ends: callers advance it before each change of the demand. Of a gap of more
 /// than `longest_gap` only the last part is calculated: at its beginning the shaft is at its demand, or where it stood if the demand is
 /// the same.
 class Shaft {

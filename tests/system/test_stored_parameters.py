@@ -65,7 +65,7 @@ def test_the_values_of_a_dcf_are_compared_and_written_as_the_site_says(folder):
         def told(axis):
             return [e["text"] for e in g.get(f"/events?axis={axis}") if e["kind"] == "parameters"]
         text = until(lambda: next((t for t in told("compare") if "9999" in t), None), 10, "the difference is told")
-        assert "6083h is 9999, stored is 7000" in text and "written" not in text, text
+        assert "6083h is 9999, the DCF has 7000" in text and "written" not in text, text
         until(lambda: any("were written" in t and "refused" not in t for t in told("write")), 10, "what was written is told")
         assert g.get("/axes/write/parameters/6083h")["value"] == 7000 and g.get("/axes/compare/parameters/6083h")["value"] == 9999
         # A value that is written through the gateway is newer than the file.

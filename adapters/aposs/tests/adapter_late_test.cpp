@@ -2,8 +2,6 @@
 #include "adapters/aposs/family.hpp"
 #include "adapters/aposs/tests/macs.hpp"
 #include "adapters/cia402/tests/line_bench.hpp"
-#include "gateway/core/specimen.hpp"
-#include "gateway/wire/specimen_twin.hpp"
 
 namespace axisgate::aposs::test {
 namespace {
@@ -11,14 +9,7 @@ using namespace std::chrono_literals;
 
 struct Late : cia402_drive::test::LineBench {
     explicit Late(std::map<std::string, std::string> freedoms) : LineBench(page(), 1) {
-        TwinSetup t;
-        t.address = "5";
-        t.axes = 2;
-        t.kind = LineKind::can;
-        t.options = std::move(freedoms);
-        t.freedoms = freedoms_of(page(), t.options);
-        t.seed = 1;
-        bus->add(DriveId{0}, with_common_freedoms(make_twin(page(), t), t), {}, now);
+        bus->add(DriveId{0}, macs(std::move(freedoms)), {}, now);
         open();
         run(3s);
     }

@@ -2,9 +2,7 @@
 #include <cmath>
 
 #include "adapters/aposs/tests/macs_bench.hpp"
-#include "gateway/core/specimen.hpp"
 #include "gateway/protocols/canopen/nmt.hpp"
-#include "gateway/wire/specimen_twin.hpp"
 
 namespace axisgate::aposs::test {
 namespace {
@@ -16,14 +14,7 @@ constexpr std::uint32_t answer_id = 0x585, beat_id = 0x705;
 struct Free : Macs {
     explicit Free(Options options = {}) { be(std::move(options)); }
     void be(Options options) {
-        TwinSetup setup;
-        setup.address = "5";
-        setup.axes = 2;
-        setup.kind = LineKind::can;
-        setup.options = std::move(options);
-        setup.freedoms = freedoms_of(page(), setup.options);
-        setup.seed = 1;
-        twin = with_common_freedoms(make_twin(page(), setup), setup);
+        twin = macs(std::move(options));
         out.clear();
         twin->power_on({}, now, out);
     }

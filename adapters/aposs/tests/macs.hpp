@@ -3,12 +3,15 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "adapters/aposs/twin/twin.hpp"
+#include "gateway/core/specimen.hpp"
+#include "gateway/wire/specimen_twin.hpp"
 
 namespace axisgate::aposs::test {
 
@@ -25,12 +28,16 @@ inline const Catalogue& page() {
     return c;
 }
 
-inline std::unique_ptr<Twin> macs() {
+/// With these options, among them freedoms by their names.
+inline std::unique_ptr<Twin> macs(std::map<std::string, std::string> options = {}) {
     TwinSetup setup;
     setup.address = "5";
     setup.axes = 2;
     setup.kind = LineKind::can;
-    return make_twin(page(), setup);
+    setup.options = std::move(options);
+    setup.freedoms = freedoms_of(page(), setup.options);
+    setup.seed = 1;
+    return with_common_freedoms(make_twin(page(), setup), setup);
 }
 
 }  // namespace axisgate::aposs::test

@@ -1,23 +1,14 @@
 // The frames of one identifier keep their order on the bus, however late the simulated controller sends them (CAN has no way to overtake
 // within one identifier).
 #include "adapters/aposs/tests/macs_bench.hpp"
-#include "gateway/core/specimen.hpp"
 #include "gateway/protocols/canopen/nmt.hpp"
-#include "gateway/wire/specimen_twin.hpp"
 
 namespace axisgate::aposs::test {
 namespace {
 
 struct LateMacs : Macs {
     LateMacs() {
-        TwinSetup setup;
-        setup.address = "5";
-        setup.axes = 2;
-        setup.kind = LineKind::can;
-        setup.options = {{"extra_pdo_ms", "2"}, {"reply_ms", "60"}};
-        setup.freedoms = freedoms_of(page(), setup.options);
-        setup.seed = 1;
-        twin = with_common_freedoms(make_twin(page(), setup), setup);
+        twin = macs({{"extra_pdo_ms", "2"}, {"reply_ms", "60"}});
         twin->power_on({}, now, out);
     }
     void set_late(std::uint16_t index, std::uint8_t sub, std::uint32_t v, int size) {

@@ -22,9 +22,9 @@ struct Manners {
     PdoSetup pdo_setup = PdoSetup::always;
     Lacks lacks = Lacks::nothing;
     bool sends_emergencies = true;
-    Duration emergency_late{}, heartbeat_jitter{}, foreign{}, extra_pdo{}, pdo_late{};
+    Duration emergency_late{}, heartbeat_jitter{}, foreign{}, extra_pdo{};
     Duration axis_start{}, program_cycle{}, status_late{}, position_late{};
-    ///< pdo_late: of a PDO by its event timer, so that it does not overtake an older one of the same identifier behind a SYNC
+    Duration pdo_late{};  ///< of a PDO by its event timer, so that it does not overtake an older one of the same identifier behind a SYNC
     double switch_hysteresis = 0;  ///< qc
     ShaftFreedoms shaft;
     std::uint64_t seed = 0;

@@ -108,6 +108,21 @@ TEST(LinmotSharedLine, ADriveBesideAnotherMasterIsFoundAndServed) {
     }
 }
 
+TEST(LinmotSharedLine, AStopDoesNotWaitForATelegramInPieces) {
+    SharedLine line;
+    Instant now = at_ns(10'000'000'000);
+    const Instant begun = now + 34ms;  // the first pause is not known to be inside of a telegram yet
+    line.strange(now);
+    for (int piece = 0; piece < 12; ++piece) {
+        now += 17ms;
+        (void)line.heard(now, 1, 260us, piece > 0);
+        EXPECT_LE(line.stop_at(now), now + 15ms) << piece;
+        EXPECT_LE(line.stop_at(now), begun + 100ms) << piece;
+        if (piece > 0) EXPECT_GT(line.silent_at(now), now + 20ms) << piece << ": anything else waits for the end of the telegram";
+    }
+    EXPECT_EQ(line.stop_at(now + 21s), now + 21s) << "nobody else has spoken for long";
+}
+
 /// Reply and conversation of the other master need 17 ms for each byte, and the master speaks twice in a second.
 TEST(LinmotSharedLine, PausesInsideOfATelegramAreNoSilence) {
     LineTiming timing;

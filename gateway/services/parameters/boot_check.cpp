@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <set>
 
 #include "gateway/core/catalogue.hpp"
 #include "gateway/core/json_read.hpp"
@@ -17,7 +18,7 @@ bool same(const Value& a, const Value& b) {
     const auto x = as_number(a), y = as_number(b);
     return x && y ? *x == *y : to_text(a) == to_text(b);
 }
-/// The values that the maker's or builder's file of the drive gives to parameters (ParameterValue of a DCF).
+/// The values that the DCF of the drive gives to its parameters (ParameterValue).
 std::vector<StoredParameter> configured(const Catalogue& catalogue) {
     std::vector<StoredParameter> out;
     const auto* list = catalogue.document().if_contains("configured");
@@ -60,17 +61,17 @@ void BootCheck::check(const std::string& axis) {
     const auto place = find_axis(sites_, axis);
     if (!place || !place->catalogue) return;
     std::vector<JobPoint> stored;
+    std::set<std::string_view> taken;
     const auto take = [&](const StoredParameter& s) {
         const auto point = place->catalogue->find(s.parameter);
         const Parameter* p = point ? place->catalogue->parameter(*point) : nullptr;
         if (!p || !p->readable() || !p->writable() || p->live || p->addressing || !known(s.value)) return;
-        if (std::ranges::find(stored, s.parameter, &JobPoint::id) == stored.end()) stored.push_back({s.parameter, *point, s.value});
+        if (taken.insert(s.parameter).second) stored.push_back({s.parameter, *point, s.value});
     };
     // A value that was written through the gateway is newer than the file.
-    for (const StoredParameter& s : parameters_.stored(axis))
-        take(s);
-    for (const StoredParameter& s : configured(*place->catalogue))
-        take(s);
+    const auto written = parameters_.stored(axis), of_file = configured(*place->catalogue);
+    for (const auto* list : {&written, &of_file})
+        std::ranges::for_each(*list, take);
     if (stored.empty()) return;
     auto points = stored;
     for (JobPoint& p : points)
@@ -86,11 +87,15 @@ void BootCheck::compared(const std::string& axis, const std::vector<JobPoint>& s
     if (!end.broken_off.empty()) return tell(Severity::warning, axis, "stored parameters were not compared: " + end.broken_off);
     std::vector<JobPoint> other;
     std::string names;
+    const auto written = parameters_.stored(axis);
+    const auto source = [&](const JobPoint& s) {
+        return std::ranges::find(written, s.id, &StoredParameter::parameter) != written.end() ? "stored is" : "the DCF has";
+    };
     for (const JobPoint& s : stored) {
         const auto has = std::ranges::find(end.values, s.id, &SnapshotValue::parameter);
         if (has == end.values.end() || same(has->value, s.value)) continue;
         if (other.size() < most_named)
-            names += fmt::format("{}{} is {}, stored is {}", names.empty() ? "" : "; ", s.id, to_text(has->value), to_text(s.value));
+            names += fmt::format("{}{} is {}, {} {}", names.empty() ? "" : "; ", s.id, to_text(has->value), source(s), to_text(s.value));
         other.push_back(s);
     }
     if (other.empty()) return;

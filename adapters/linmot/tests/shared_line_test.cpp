@@ -123,15 +123,15 @@ TEST(LinmotSharedLine, AStopDoesNotWaitForATelegramInPieces) {
     EXPECT_EQ(line.stop_at(now + 21s), now + 21s) << "nobody else has spoken for long";
 }
 
-/// Reply and conversation of the other master need 17 ms for each byte, and the master speaks twice in a second.
+/// Each byte of a reply and of the other master needs 17 ms, and the master speaks twice in a second.
 TEST(LinmotSharedLine, PausesInsideOfATelegramAreNoSilence) {
     LineTiming timing;
-    timing.reply_timeout = 1200ms;
+    timing.reply_timeout = 1226ms;
     LineBench b(1, shared_rate, {}, timing);
     TwinSetup t;
     t.address = "17";
-    t.options = {{"foreign_ms", "500"}, {"chunk_bytes", "1"}, {"chunk_pause_ms", "17"}, {"reply_ms", "27"}, {"request_pause_ms", "27"}};
-    t.freedoms = freedoms_of(page(), t.options);
+    t.seed = 789038827;  // pieces of 1 byte with pauses of 17 ms; replies after 27 to 37 ms; another master each 500 ms
+    t.freedoms = specimen_values(page(), std::to_string(t.seed));
     b.bus->add(DriveId{0}, with_common_freedoms(twin::make_twin(page(), t), t), {}, b.now);
     b.run(20s);
     ASSERT_TRUE(b.links[DriveId{0}].online) << b.links[DriveId{0}].text;

@@ -409,18 +409,23 @@ def played(plan, drives, workers):
             yield done.result()
 
 
-def main():
-    plan = arguments()
-    drives, again, failed = drives_of(plan), {}, 0
-    for name, seconds, failures in played(plan, drives, plan.workers):
+def tried(plan, drives, workers):
+    """The results of `play` with the steps that failed twice: a drive that has failed is played again, by itself."""
+    again = {}
+    for name, seconds, failures in played(plan, drives, workers):
         if failures and not plan.once:
             again[name] = dict(failures)
-            print(f"{name}: to be repeated ({seconds:.0f} s)", flush=True)
-            continue
-        failed += bool(failures)
-        tell(name, seconds, failures)
+            print(f"{name}: to be repeated ({seconds:.0f} s): {failures}", flush=True)
+        else:
+            yield name, seconds, failures
     for name, seconds, failures in played(plan, [d for d in drives if d[0] in again], 1):
-        failures = [f for f in failures if f[0] in again[name]]
+        yield name, seconds, [f for f in failures if f[0] in again[name]]
+
+
+def main():
+    plan = arguments()
+    drives, failed = drives_of(plan), 0
+    for name, seconds, failures in tried(plan, drives, plan.workers):
         failed += bool(failures)
         tell(name, seconds, failures)
     print(f"{len(drives) - failed} passed, {failed} failed")

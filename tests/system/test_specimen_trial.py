@@ -1,5 +1,4 @@
 """Specimens that earlier programs did not serve (docs/decisions/engine-and-twins.md has the list), tried by specimen_trial.py on a CAN bus of processes."""
-import concurrent.futures
 import types
 import unittest.mock
 
@@ -12,10 +11,9 @@ SEEDS = ("19", "22", "53", "57")
 
 
 def test_drives_that_earlier_programs_did_not_serve():
-    plan = types.SimpleNamespace(program=harness.PROGRAM, twins=harness.PROGRAM, can=None, watches=False, most=3)
-    with concurrent.futures.ThreadPoolExecutor(len(SEEDS)) as pool:
-        played = [run.result() for run in [pool.submit(specimen_trial.play, plan, seed, seed, {}) for seed in SEEDS]]
-    assert all(not failures for _, _, failures in played), played
+    plan = types.SimpleNamespace(program=harness.PROGRAM, twins=harness.PROGRAM, can=None, watches=False, most=3, once=False)
+    results = list(specimen_trial.tried(plan, [(seed, seed, {}) for seed in SEEDS], len(SEEDS)))
+    assert len(results) == len(SEEDS) and all(not failures for _, _, failures in results), results
 
 
 def test_the_trial_tells_a_drive_that_is_not_found():

@@ -63,12 +63,12 @@ const IniSection* Ini::find(std::string_view name) const {
 }
 
 namespace {
-/// Takes the next line off the text. LF, CR LF or CR alone end it.
-std::string_view next_row(std::string_view& text) {
+/// Takes the next line off the text, as UTF-8. LF, CR LF or CR alone end it.
+std::string next_row(std::string_view& text) {
     const auto end = std::min(text.find_first_of("\r\n"), text.size());
-    const std::string_view row = text.substr(0, end);
+    std::string row = as_utf8(trimmed(text.substr(0, end)));
     text.remove_prefix(std::min(text.size(), end + (text.substr(end).starts_with("\r\n") ? 2 : 1)));
-    return trimmed(row);
+    return row;
 }
 }  // namespace
 
@@ -85,7 +85,8 @@ std::optional<Ini> Ini::read(std::string_view text, std::vector<FileFault>& faul
     bool again = false;  // the present section stands twice: its keys are left out
     while (!text.empty() && faults.size() == before) {
         ++line;
-        const std::string_view row = next_row(text);
+        const std::string utf8 = next_row(text);
+        const std::string_view row = trimmed(utf8);
         if (row.empty() || row[0] == ';' || row[0] == '#') continue;
         if (row[0] == '[') {
             const auto close = row.find(']');
@@ -123,7 +124,7 @@ std::optional<Ini> Ini::read(std::string_view text, std::vector<FileFault>& faul
         } else if (++keys > most_keys) {
             add_fault(faults, line, fmt::format("more than {} keys: this is no description of a drive", most_keys));
         } else {
-            ini.sections_.back().keys.push_back({name, std::string(trimmed(as_utf8(row.substr(equals + 1)))), line});
+            ini.sections_.back().keys.push_back({name, std::string(trimmed(row.substr(equals + 1))), line});
         }
     }
     if (faults.size() != before) return std::nullopt;

@@ -18,9 +18,10 @@ struct FileFault {
     std::string text;
 };
 
+/// All texts are valid UTF-8: a line that is not is read as Latin-1, and control characters are read as blanks.
 struct IniKey {
     std::string name;   ///< in lower case
-    std::string value;  ///< without blanks around it; valid UTF-8 (other bytes are read as Latin-1), control characters replaced by blanks
+    std::string value;  ///< without blanks around it
     std::size_t line = 0;
 };
 struct IniSection {

@@ -125,6 +125,8 @@ TEST(EdsNotes, AnOddRowIsToldAndTheFileIsRead) {
         {whole + "just words\n", 9, "\"just words\" is neither a section nor a key with a value: left out"},
         {"a=1\n" + whole, 1, "the key a stands before the first section: left out"},
         {whole + "=5\n", 9, "neither a section nor a key"},
+        {whole + "[1000sub\xED]\n", 9, "[1000sub\u00ED]: \"\u00ED\" is no subindex (two hex digits): left out"},
+        {whole + "[1000sub" + std::string(99, 'x') + "]\n", 9, "[1000sub" + std::string(33, 'x') + "...]: \""},
         {head + "[1000 ; device type\nParameterName=a\n" + good, 5, "has no ]: read as [1000]"},
         {whole + "[DEVICEINFO]\nVendorName=y\n", 9, "the section [deviceinfo] stands twice, first in line 1: the second one is left out"},
         {object(good + "datatype=6\n"), 9, "the key datatype stands twice in [1000]: the first one counts"},

@@ -216,7 +216,11 @@ Axis::News Axis::step_done(Job& job, const canopen::SdoEnd& end, Turn& t) {
     if (sent(object::controlword)) word_taken(known, job, s, t.now);
     if (sent(object::cycle)) known.interpolation.value = canopen::low_first(s.bytes);
     if (sent(object::cycle_index)) known.interpolation.index = signed_of(s.bytes);
-    if (sent(object::mode)) known.ordered_mode = static_cast<int>(signed_of(s.bytes));
+    if (sent(object::mode)) {
+        known.ordered_mode = static_cast<int>(signed_of(s.bytes));
+        job.went.reset();  // a set-point that was sent before belongs to another mode
+        job.begun = job.released = false;
+    }
     if (!known.has_mode) known.mode = known.ordered_mode;
     if (end.done() && s.kind == Step::Kind::write)
         rates.written(of_first_axis(s.address), static_cast<std::int64_t>(canopen::low_first(s.bytes)),
@@ -238,7 +242,7 @@ Axis::News Axis::step_done(Job& job, const canopen::SdoEnd& end, Turn& t) {
     job.wait_until = {};
     const bool taken = s.edge && !std::holds_alternative<Move>(job.command.body);  // values that the drive shows before it has seen the
                                                                                    // control word are old
-    if (taken) job.wait_until = t.now + seen_by_all;
+    if (taken || s.seen) job.wait_until = t.now + seen_by_all;
     if (++job.at < job.steps.size()) {
         if (job.steps[job.at].edge && !job.released) job.wait_until = known.low_since + seen_by_all;
         return News::none;
@@ -306,7 +310,10 @@ Axis::News Axis::finish(Job& job, Turn& t) {
         stream.begun(job.here);
         return News::none;
     }
-    if (is_urgent(body)) known.order = Order::none;
+    if (is_urgent(body)) {
+        known.order = Order::none;
+        known.fb.homing = false;
+    }
     moves_now(body, job.here, t);
     const auto* read = std::get_if<ReadParameter>(&body);
     const auto* to = std::get_if<WriteParameter>(&body);

@@ -43,6 +43,7 @@ struct Step {
     std::optional<std::int64_t> away_from{};      ///< until: the value is nearer to `want` than to this one
     Duration patience = std::chrono::seconds(2);  ///< of an until step
     canopen::NmtCommand nmt = canopen::NmtCommand::start;
+    bool seen = false;  ///< write: the next step waits until a drive that samples its control word slowly has seen this one
 };
 
 /// A command in progress.
@@ -69,6 +70,10 @@ struct Job {
     }
     void read(Address a) { steps.push_back({Step::Kind::read, a, {}}); }
     void word(std::uint16_t controlword) { write(object::controlword, controlword, 2); }
+    void word_seen(std::uint16_t controlword) {
+        word(controlword);
+        steps.back().seen = true;
+    }
     void until(std::uint32_t mask, std::uint32_t want) { steps.push_back({Step::Kind::until, object::statusword, {}, mask, want}); }
     /// Rising edge of bit 4, not before the drive has certainly seen it at 0.
     void start_word(std::uint16_t controlword) {

@@ -284,7 +284,7 @@ void Feedback::judge(Turn& t) {
     fb.demand_source = fb.power == AxisFeedback::Power::on && !fb.fault ? DemandSource::drive : DemandSource::none;
     const bool halted = known.cw & 0x100u;
     if (!enabled || halted) {
-        if (known.order == Order::homing) fb.homing = false;
+        fb.homing = false;
         known.order = Order::none;
     }
     if (!enabled) drive_.stream.end();

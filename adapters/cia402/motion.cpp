@@ -8,11 +8,51 @@
 namespace axisgate::cia402_drive {
 namespace {
 constexpr std::uint16_t on_word = 0x0F, halt_bit = 0x100, go_word = 0x3F;
+bool is_halted(const AxisKnown& known) { return (known.cw & halt_bit) != 0; }
 bool fits_i32(std::int64_t v) { return v >= INT32_MIN && v <= INT32_MAX; }
 
+/// The drive continues the interrupted motion when halt is released (CiA 402-2, bit 8), and some drives refuse another mode while halt is
+/// set. The order of the mode in force is therefore replaced by one that keeps the axis where it stands, and halt is released with it.
+void leave_halt(const Node& node, const AxisKnown& known, Job& job) {
+    const auto target_here = [&](Address target) {
+        job.read(object::position);
+        job.write(target, 0, 4);
+        job.steps.back().from_here = true;
+    };
+    if (known.turns()) job.until_standstill(std::chrono::seconds(5));
+    if (known.cw & start_bit) job.word(halt_bit | on_word);
+    switch (known.mode) {
+        case 1:
+            target_here(object::target_position);
+            job.await(Step::Awaits::release, object::statusword, 0x1000, 0, node.start_timeout);
+            job.start_word(go_word);
+            job.await(Step::Awaits::acknowledge, object::statusword, 0x1000, 0x1000, node.start_timeout);
+            job.steps.back().optional = true;
+            break;
+        case 3:
+        case 9:
+            job.write(object::target_velocity, 0, 4);
+            break;
+        case 4:
+        case 10:
+            job.write(object::target_torque, 0, 2);
+            break;
+        case 7:
+            target_here(object::interpolated_position);
+            break;
+        case 8:
+            target_here(object::target_position);
+            break;
+        default:
+            break;
+    }
+    job.word_seen(on_word);
+}
+
 /// A drive carries out the next set-point in the mode that it shows: a set-point for a mode that is not in force yet is lost.
-void enter_mode(const Node& node, const AxisKnown& known, Job& job, int mode) {
+void enter_mode(const Node& node, const AxisKnown& known, Job& job, int mode, bool halted) {
     if (known.mode == mode && known.ordered_mode == mode) return;
+    if (halted) leave_halt(node, known, job);
     job.write(object::mode, mode, 1);
     if (!known.has_mode) return;
     job.await(Step::Awaits::mode, object::mode_shown, 0xFF, static_cast<std::uint8_t>(mode), node.mode_timeout);
@@ -24,19 +64,23 @@ void take_start_back(const AxisKnown& known, Job& job) {
 
 void plan_homing(const Node& node, const AxisKnown& known, Job& job, std::optional<std::int16_t> method) {
     if (method) job.write(object::homing_method, *method, 1);
-    enter_mode(node, known, job, 6);
+    enter_mode(node, known, job, 6, is_halted(known));
     job.word(on_word);
     job.await(Step::Awaits::value, object::statusword, 0, 0, {});  // value before the step
     job.start_word(on_word | start_bit);
 }
 
-std::string plan_enable(const AxisKnown& known, Job& job, Instant now, Reason& reason) {
+std::string plan_enable(const Node& node, const AxisKnown& known, Job& job, Instant now, Reason& reason) {
     reason = Reason::wrong_state;
     if (known.fb.fault) return "the drive is in a fault: reset it first";
     if (known.shows_on() && !known.on(now)) {  // from before a stop, so that it would be no answer to this Enable
         job.await(Step::Awaits::off, object::statusword, 0, 0, AxisKnown::oldest_report);
         job.steps.back().optional = true;
     }
+    if (is_halted(known) && known.on(now))
+        leave_halt(node, known, job);
+    else if (is_halted(known))  // halt alone is released; the power stays off
+        job.word_seen(known.state() == 0x07 ? 0x0B : 0x06);
     // A change of mode must not move the axis: the target velocity is 0, and positioning waits for its start bit. A cyclic mode stays in
     // force until another one is shown, with the actual position as its target.
     if (known.offers(3) || known.offers(9)) job.write(object::target_velocity, 0, 4, true);
@@ -103,13 +147,13 @@ std::string plan_move(const Node& node, const AxisKnown& known, Job& job, const 
         // The velocity is written after the change of mode: a change that is late would otherwise run at a velocity that was answered as
         // failed.
         if (known.mode != 3 || known.ordered_mode != 3) job.write(object::target_velocity, 0, 4);
-        enter_mode(node, known, job, 3);
+        enter_mode(node, known, job, 3, is_halted(known));
         job.write(object::target_velocity, m.target, 4);
         if (known.cw != on_word) job.word(on_word);
         return {};
     }
     take_start_back(known, job);
-    enter_mode(node, known, job, 1);
+    enter_mode(node, known, job, 1, is_halted(known));
     if (m.kind == Move::Kind::relative) job.read(object::position);
     job.write(object::target_position, m.target, 4);
     job.steps.back().from_here = m.kind == Move::Kind::relative;
@@ -129,7 +173,7 @@ std::string plan(const Node& node, const AxisKnown& known, std::size_t axis, Job
     if (const auto* native = std::get_if<Native>(&body)) return plan_native(node, job, *native, reason);
     if (const auto* action = std::get_if<Action>(&body)) return plan_action(node, known, job, *action, now, reason);
     if (!known.profile) return fmt::format("this {} has no objects of CiA 402 (6041h): its own program moves it", noun);
-    if (std::holds_alternative<Enable>(body)) return plan_enable(known, job, now, reason);
+    if (std::holds_alternative<Enable>(body)) return plan_enable(node, known, job, now, reason);
     if (std::holds_alternative<ResetFault>(body)) {
         if (!known.fb.fault) return job.read(object::error_code), "";
         job.word(0x00), job.word(0x80);
@@ -209,7 +253,7 @@ void plan_stream(const Node& node, const AxisKnown& known, SetPoint::Mode mode, 
     target_here();
     if (mode == SetPoint::Mode::velocity) job.write(object::target_velocity, 0, 4);
     if (mode == SetPoint::Mode::torque) job.write(object::target_torque, 0, 2);
-    enter_mode(node, known, job, entered);
+    enter_mode(node, known, job, entered, known.turns() || is_halted(known));
     if (!in_force) target_here();  // the change of mode may have taken some time
     // Bit 4 switches the interpolation on.
     const std::uint16_t cw = entered == 7 ? on_word | start_bit : on_word;

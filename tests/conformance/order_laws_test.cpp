@@ -2,6 +2,7 @@
 // every action of the catalogue, an answer for each of them; the decoder names the order. Judged by the twins' mechanics.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 
 #include "tests/conformance/laws.hpp"
@@ -78,27 +79,86 @@ TEST_P(OrderLaws, ARefusedHomingIsTheLastOne) {
 
 TEST_P(OrderLaws, AStopEndsAHoming) {
     enabled();
-    const Ticket search = w.command(a1, Home{}, true);
-    const bool began = w.run_until_true([&] { return speed(a1) > 0 || w.result(search) != nullptr; }, 20s);
-    ASSERT_TRUE(began) << "neither a search nor a word why not";
-    if (const Result* r = w.result(search)) {
-        EXPECT_TRUE(r->outcome == Outcome::done || !r->text.empty()) << published(r);
-        EXPECT_EQ(speed(a1), 0);
-        return;
-    }
-    order(a1, QuickStop{});
-    EXPECT_EQ(speed(a1), 0);
-    const Result* r = w.wait(search, 5s);
-    ASSERT_TRUE(r);
-    EXPECT_EQ(r->outcome, Outcome::failed) << published(r);
-    EXPECT_EQ(r->reason, Reason::interrupted) << published(r);
-    const double place = mechanics(a1).position;
-    w.run_for(3s);
-    EXPECT_EQ(speed(a1), 0);
-    EXPECT_EQ(mechanics(a1).position, place) << "the rest of the search is forgotten";
-    if (now().mode_display == cia402::mode_homing)
-        EXPECT_EQ(now().statusword & cia402::sw_mode_12, 0) << "a zero that was not found is not attained";
-    EXPECT_EQ(w.results[search].size(), 1u);
+    for (const CommandBody& stop : {CommandBody{QuickStop{}}, CommandBody{Halt{}}})
+        for (const std::int16_t method : {std::int16_t{0}, std::int16_t{33}}) {  // the drive's own, and the index pulse
+            SCOPED_TRACE(testing::Message() << name_of(stop) << ", method " << method);
+            order(a1, Enable{});
+            (void)ask(a1, move_to(now().position + 300));  // away from the zero of the search before, if that was found
+            w.run_for(1s);
+            const Ticket search = w.command(a1, Home{method}, true);
+            const bool began = w.run_until_true([&] { return speed(a1) > 0 || w.result(search) != nullptr; }, 20s);
+            ASSERT_TRUE(began) << "neither a search nor a word why not";
+            if (const Result* r = w.result(search)) {
+                EXPECT_TRUE(r->outcome == Outcome::done || !r->text.empty()) << published(r);
+                EXPECT_EQ(speed(a1), 0);
+                continue;
+            }
+            order(a1, stop);
+            EXPECT_EQ(speed(a1), 0);
+            const Result* r = w.wait(search, 5s);
+            ASSERT_TRUE(r);
+            EXPECT_EQ(r->outcome, Outcome::failed) << published(r);
+            EXPECT_EQ(r->reason, Reason::interrupted) << published(r);
+            const double place = mechanics(a1).position;
+            w.run_for(3s);
+            EXPECT_EQ(speed(a1), 0);
+            EXPECT_EQ(mechanics(a1).position, place) << "the rest of the search is forgotten";
+            EXPECT_EQ(now().flags & flag_moving, 0) << "it stands, and is shown as moving";
+            if (now().mode_display == cia402::mode_homing)
+                EXPECT_EQ(now().statusword & cia402::sw_mode_12, 0) << "a zero that was not found is not attained";
+            EXPECT_EQ(w.results[search].size(), 1u);
+        }
+}
+
+/// Most drives continue an interrupted motion when halt is released (CiA 402-2): an Enable is no order of a motion, neither of the gateway
+/// that has halted nor of the next one.
+TEST_P(OrderLaws, AnEnableBehindAHaltContinuesNothing) {
+    for (const Move::Kind kind : {Move::Kind::absolute, Move::Kind::velocity})
+        for (const bool restarted : {false, true}) {
+            SCOPED_TRACE(testing::Message() << (kind == Move::Kind::velocity ? "velocity" : "move") << (restarted ? ", restarted" : ""));
+            auto plant = std::make_shared<Plant>();
+            World before(1, plant);
+            const Site wanted = before.make_site(e, e.cable(), 1, "device");
+            site = before.apply(wanted);
+            a1 = site->axis_ids.at(0);
+            before.plug_in("line", DriveId{0}, e, addresses(e, 1).at(0), e.kind());
+            ASSERT_TRUE(
+                before.run_until_true([&] { return (before.picture(a1).flags & flag_online) && before.picture(a1).ever_seen; }, 30s));
+            before.run_for(1s);
+            const auto give = [&](World& of, CommandBody body, bool until_done) {
+                const Result* r = of.wait(of.command(a1, std::move(body), until_done), 20s);
+                EXPECT_TRUE(r);
+                return r ? *r : Result{};
+            };
+            const auto shaft = [&](const World& of) { return plant->buses.at("line")->twin(DriveId{0})->mechanics(1, of.now); };
+            ASSERT_TRUE(good(give(before, Enable{}, true)));
+            const std::int64_t from = before.picture(a1).position;
+            const Result r = give(before, move_to(kind == Move::Kind::velocity ? 2000 : from + 200'000, kind), false);
+            if (r.reason == Reason::not_supported) continue;
+            ASSERT_TRUE(good(r)) << published(&r);
+            ASSERT_TRUE(before.run_until_true([&] { return std::fabs(shaft(before).velocity) > 1000; }, 10s));
+            ASSERT_TRUE(good(give(before, Halt{}, true)));
+            before.run_for(1s);
+            const double place = shaft(before).position;
+
+            World next(2, plant);
+            if (restarted) {
+                next.now = before.now + 300ms;
+                (void)next.apply(wanted);
+                ASSERT_TRUE(next.run_until_true([&] { return (next.picture(a1).flags & flag_online) && next.picture(a1).ever_seen; }, 30s));
+                next.run_for(1s);
+            }
+            World& now = restarted ? next : before;
+            const Result on = give(now, Enable{}, true);
+            ASSERT_TRUE(good(on)) << published(&on);
+            now.run_for(3s);
+            EXPECT_NEAR(shaft(now).position, place, 1);
+            EXPECT_EQ(now.picture(a1).flags & flag_moving, 0);
+            const Result moved = give(now, move_to(now.picture(a1).position + 300), true);
+            EXPECT_TRUE(good(moved)) << published(&moved);
+            now.run_for(1s);
+            EXPECT_NEAR(shaft(now).position, place + 300, 2) << "it takes the next order";
+        }
 }
 
 TEST_P(OrderLaws, ASetPositionRenamesThePlaceAndMovesNothing) {

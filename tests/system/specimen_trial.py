@@ -97,8 +97,6 @@ class Bench:
             arguments += [a for name in WATCHES if name not in options for a in ("--option", f"{name}=0")]
         stack.enter_context(harness.Process(*arguments, program=plan.twins, env=self.env))
         self.gateway = None
-        # A drive that refuses another mode behind a halt is switched off and on by its user, once, when the gateway tells its refusal.
-        self.insists = bool(values.get("mode_refusal"))
 
     def bus(self):
         bus = self.stack.enter_context(UserCan(self.folder))
@@ -157,11 +155,6 @@ class Bench:
         status, result, words = self.ask(body, wait)
         if status == 409 and "nmt_start" in words:  # the refusal names the remedy
             self.start_node()
-            status, result, words = self.ask(body, wait)
-        if status == 409 and self.insists and body["command"].startswith(("move", "enable")):
-            self.ask({"command": "disable"}, 10)
-            if body["command"] != "enable":
-                self.ask({"command": "enable"}, 10)
             status, result, words = self.ask(body, wait)
         if status not in (200, 202) or result != ("done" if wait else "accepted"):
             raise Failed(f"{body['command']} was answered with {status} {result} {words} ({self.shown()})")

@@ -86,7 +86,7 @@ class OtherTool:
 class Bench:
     """One drive and the gateway that is tried with it."""
 
-    def __init__(self, folder, plan, specimen, options, values, stack):
+    def __init__(self, folder, plan, specimen, options, stack):
         self.folder, self.plan, self.stack = folder, plan, stack
         self.uri, self.env = (f"can:{plan.can}", {}) if plan.can else self.bus()
         arguments = ["twin", FAMILY, "--line", self.uri, "--address", NODE]
@@ -346,7 +346,7 @@ def play(plan, name, specimen, options):
     begun, failures = time.monotonic(), []
     with harness.Folder() as folder, contextlib.ExitStack() as stack:
         values = values_of(plan.twins, specimen, options)
-        bench = Bench(folder, plan, specimen, options, values, stack)
+        bench = Bench(folder, plan, specimen, options, stack)
         trial = Trial(bench, values)
         for step, do in trial.steps():
             try:

@@ -6,8 +6,8 @@ import harness
 import specimen_trial
 
 # 19 samples its control word each 6 ms. 22 has no position demand. 53 shows a mode after 468 ms and takes a mapping in pre-operational only; nothing
-# takes it there when its master is gone. 57 is stopped by another master while it turns.
-SEEDS = ("19", "22", "53", "57")
+# takes it there when its master is gone. 57 is stopped by another master while it turns. 43 refuses another mode under a halt.
+SEEDS = ("19", "22", "43", "53", "57")
 
 
 def test_drives_that_earlier_programs_did_not_serve():

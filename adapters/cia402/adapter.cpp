@@ -102,7 +102,7 @@ void LineAdapter::send_sync(Turn& t) {
 }
 
 void LineAdapter::end(Turn& t) {
-    if (line_.targets.none() && wished_ != wished_beat()) plan_beats(t);  // not possible while axes follow set-points
+    if (line_.targets.none() && (wished_ != wished_beat() || line_.plan_anew)) plan_beats(t);  // not while axes follow set-points
     drives_.each([&](Drive& d) { drive::settle(line_.turns, d, t.now); });
     drive::serve(line_.turns, drives_, t);
     plan_sync(t.now);
@@ -139,7 +139,7 @@ Duration LineAdapter::wished_beat() const {
 void LineAdapter::plan_beats(Turn& t) {
     wished_ = wished_beat();
     canopen::TurnsWish wish{wished_, line_.bit_rate, axis_bits, target_bits, line_.targets.fullest(), {}};
-    drives_.each([&](const Drive& d) { wish.nodes.push_back({static_cast<int>(d.axes.size()), d.node.slot}); });
+    drives_.each([&](const Drive& d) { wish.nodes.push_back({d.weight(), d.node.slot}); });
     auto plan = canopen::plan_turns(wish);
     if (!line_.targets.none() && plan.beat != line_.plan.beat) {  // drives that follow set-points calculate with the cycle: their streams
                                                                   // end when it may change
@@ -147,6 +147,7 @@ void LineAdapter::plan_beats(Turn& t) {
         return;
     }
     line_.plan = std::move(plan);
+    line_.plan_anew = false;
     std::size_t i = 0;
     drives_.each([&](Drive& d) { d.node.take_slot(line_.plan.slots[i++], t); });
 }

@@ -35,7 +35,7 @@ Duration SetPointStream::cycle() const noexcept { return place_ ? drive_.node.li
 
 std::optional<Job> SetPointStream::begin(Turn& t) {
     Line& line = drive_.node.line;
-    if (!drive_.known.targets[static_cast<std::size_t>(newest_->mode)]) {
+    if (!drive_.known.pdos.targets[static_cast<std::size_t>(newest_->mode)]) {
         t.out.stream_ends.push_back(
             {drive_.id(), Reason::not_supported, "the drive accepts no PDO with such a target: it follows no streamed set-points"});
         end();
@@ -81,7 +81,6 @@ void SetPointStream::mode_shown(int mode, Turn& t) {
 
 void SetPointStream::before_sync(Turn& t) {
     const AxisKnown& known = drive_.known;
-    const std::uint32_t node = drive_.node.number;
     if (!drive_.listens() || state_ < State::position || !newest_ || known.fb.power != AxisFeedback::Power::on) return;
     if (!place_ || !place_->due(drive_.node.line.beat + 1)) return;
     const double cycle_s = seconds(cycle());
@@ -90,14 +89,18 @@ void SetPointStream::before_sync(Turn& t) {
         return static_cast<double>(v.value_or(known.rates[own]));
     };
     const drive::LeadRamps ramps{rate(p.velocity, 0), rate(p.acceleration, 1), rate(p.deceleration, 2)};
-    if (state_ == State::torque)
-        return t.out.send(canopen::data_frame(0x400u + node, bytes_of(std::clamp<std::int64_t>(p.value, INT16_MIN, INT16_MAX), 2)));
-    if (state_ == State::velocity) {
-        const double v = led_.speed_towards(static_cast<double>(p.value), ramps, cycle_s);
-        return t.out.send(canopen::data_frame(0x300u + node, bytes_of(std::llround(v), 4)));
-    }
+    if (state_ == State::torque) return send(std::clamp<std::int64_t>(p.value, INT16_MIN, INT16_MAX), t);
+    if (state_ == State::velocity) return send(std::llround(led_.speed_towards(static_cast<double>(p.value), ramps, cycle_s)), t);
     const double place = std::clamp(led_.towards(static_cast<double>(p.value), ramps, cycle_s), double{INT32_MIN}, double{INT32_MAX});
-    t.out.send(canopen::data_frame(0x200u + node, bytes_of(std::llround(place), 4)));
+    send(std::llround(place), t);
+}
+
+void SetPointStream::send(std::int64_t target, Turn& t) {
+    const AxisKnown& known = drive_.known;
+    const auto& pdo = known.pdos.targets[static_cast<std::size_t>(newest_->mode)];
+    if (!pdo) return;
+    const Address object = target_object(newest_->mode, known.stream_mode(newest_->mode));
+    t.out.send(canopen::data_frame(pdo->settings.id, target_bytes(pdo->mapping, {known.cw, known.ordered_mode, object, target})));
 }
 
 }  // namespace axisgate::cia402_drive

@@ -39,6 +39,7 @@ public:
 private:
     enum class State : std::uint8_t { none, starting, position, velocity, torque };
     void give_back() noexcept;
+    void send(std::int64_t target, Turn& t);
     [[nodiscard]] Duration cycle() const noexcept;
 
     static constexpr int sure = 3;  ///< feedback in succession; one may be older than the change of mode

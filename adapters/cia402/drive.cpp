@@ -55,6 +55,9 @@ Drive::Drive(Line& line, const DriveSetup& setup, std::size_t slot)
     node.keep_quick_stop = options.flag("quick_stop_stays", false, "yes", "no");
     node.restart_stopped = options.flag("restart_stopped", false, "yes", "no");
     node.keep_limits = options.flag("drive_limits", true, "on", "off");
+    if (const auto plan = options.word("pdo_plan", {"auto", "free", "file", "few", "sdo"}); plan != "auto")
+        for (const PdoPlan p : {PdoPlan::free, PdoPlan::file, PdoPlan::few, PdoPlan::sdo})
+            if (plan == name_of(p)) node.pdo_plan = p;
     heartbeat_period_ = options.milliseconds("heartbeat_ms", 0, 60'000, heartbeat_period_);
     node.mode_timeout = options.milliseconds("mode_timeout_ms", 10, 10'000, node.mode_timeout);
     node.start_timeout = options.milliseconds("start_timeout_ms", 50, 10'000, node.start_timeout);
@@ -65,6 +68,7 @@ Drive::Drive(Line& line, const DriveSetup& setup, std::size_t slot)
     watch.time = options.milliseconds("watchdog_ms", 100, 60'000, watch.time);
     if (node.dialect.places_move) node.places = moved_places(node.setup.options);
     fit_axes();
+    weight_ = weight();
 }
 
 void Drive::fit_axes() {
@@ -141,6 +145,18 @@ void Drive::made_ready(Turn& t) {
     for (const auto& a : axes)
         if (a->is_new()) a->made_ready(t.now);
     if (listeners() == 0) check_at_ = t.now + std::chrono::milliseconds(200);
+    if (const int weight = this->weight(); std::exchange(weight_, weight) != weight) node.line.plan_anew = true;
+}
+
+int Drive::weight() const noexcept {
+    int sum = 0;
+    for (const auto& a : axes) {
+        std::uint32_t bits = 0;
+        for (const canopen::Pdo& p : a->known.pdos.reports)
+            bits += canopen::most_bits(static_cast<std::uint32_t>(canopen::bits_of(p.mapping) / 8));
+        sum += std::max(1, static_cast<int>((bits + axis_bits - 1) / axis_bits));
+    }
+    return sum;
 }
 
 void Drive::submit(const Command& c, Turn& t) {

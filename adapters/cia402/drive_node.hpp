@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "adapters/cia402/drive_pdos.hpp"
 #include "adapters/cia402/wire.hpp"
 #include "gateway/core/adapter.hpp"
 #include "gateway/core/catalogue.hpp"
@@ -53,6 +54,7 @@ struct Line {
                                                       ///< while an axis follows set-points
     canopen::TargetTurns targets;                     ///< places of the axes that follow set-points
     int led = 0;                                      ///< number of axes that follow set-points
+    bool plan_anew = false;                           ///< a drive reports by more or longer PDOs than the plan knows
     std::uint64_t beat = 0;                           ///< number of SYNCs sent
     Instant synced_at{};                              ///< time of the last SYNC
     Duration period = std::chrono::milliseconds(20);  ///< present time between two SYNCs
@@ -106,6 +108,7 @@ struct Node {
     Duration mode_timeout = std::chrono::seconds(1);   ///< from the write of 6060h until 6061h shows the mode
     Duration start_timeout = std::chrono::seconds(1);  ///< from the start bit until the drive has acknowledged it
     bool restart_stopped = false;                      ///< a node that another NMT master has stopped is started again, also if it stands
+    std::optional<PdoPlan> pdo_plan{};                 ///< the only one that is tried; empty: free, few or file, sdo
     bool keep_quick_stop = false;
     bool only_reads = false;  ///< nothing is set up: the values are read by SDO
     bool keep_limits = true;  ///< option drive_limits: the site's position limits are written to 607Dh

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "adapters/cia402/drive_pdos.hpp"
 #include "adapters/cia402/drive_steps.hpp"
 #include "gateway/core/sample.hpp"
 
@@ -29,8 +30,8 @@ struct AxisKnown {
     bool profile = true;  ///< it has a status word
     /// The measured values that the drive has (606Ch, 6062h, 6061h); feedback.hpp says how the others are replaced.
     bool has_velocity = true, has_demand = true, has_mode = true;
-    bool polled = false;                            ///< its PDOs cannot be set up: its values are read by SDO
-    std::array<bool, 3> targets{true, true, true};  ///< the drive accepts PDOs with a target position, velocity, torque
+    bool polled = false;  ///< its values are read by SDO
+    AxisPdos pdos;
     std::int64_t homing_method = 0;
     std::array<std::int64_t, 3> rates{10'000, 50'000, 50'000};  ///< 6081h, 6083h, 6084h
     Order order = Order::none;
@@ -40,8 +41,6 @@ struct AxisKnown {
         bool operator==(const Interpolation&) const = default;
     } interpolation;
 
-    /// It has values for the second PDO.
-    [[nodiscard]] bool reports_motion() const noexcept { return has_velocity || has_demand; }
     [[nodiscard]] bool offers(int m) const noexcept { return m >= 1 && m <= 32 && (modes >> (m - 1) & 1u); }
     /// The mode that follows set-points of this kind: 8, 9, 10, or the older 7 and 4 if the drive does not have those.
     [[nodiscard]] int stream_mode(SetPoint::Mode kind) const noexcept {

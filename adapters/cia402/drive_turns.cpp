@@ -18,7 +18,7 @@ void PdoTurns::set_up(int turns) noexcept {
     }
 }
 
-void PdoTurns::came(Pdo which, Turn& t) {
+void PdoTurns::came(std::size_t which, Turn& t) {
     Reported& p = reported_[which];
     const Line& line = drive_.node.line;
     if (p.turns != line.plan.turns || p.turns == 1 || (act_ != Act::rest && at_ == which)) return;
@@ -45,17 +45,25 @@ void PdoTurns::give_up(Reported& p, std::string_view why, Turn& t) {
         t.out);
 }
 
+std::size_t PdoTurns::first_misplaced() const noexcept {
+    const std::size_t count = drive_.known.pdos.reports.size();
+    std::size_t i = 0;
+    while (i < count && !misplaced(reported_[i]))
+        ++i;
+    return i;
+}
+
 bool PdoTurns::wants(Instant now) const noexcept {
     const AxisKnown& known = drive_.known;
     if (!known.profile || known.polled) return false;
-    if (act_ == Act::rest) return misplaced(reported_[status]) || (known.reports_motion() && misplaced(reported_[motion]));
+    if (act_ == Act::rest) return first_misplaced() < known.pdos.reports.size();
     return act_ != Act::on || drive_.node.line.in_turn(reported_[at_].wanted_slot, now);
 }
 
 Step PdoTurns::next() {
     const Line& line = drive_.node.line;
     if (act_ == Act::rest) {
-        at_ = misplaced(reported_[status]) ? status : motion;
+        at_ = first_misplaced();
         Reported& p = reported_[at_];
         const bool same = p.turns == line.plan.turns;
         const int slot = drive_.node.slot, wanted = p.wanted_slot < 0 ? slot : p.wanted_slot;
@@ -63,7 +71,7 @@ Step PdoTurns::next() {
         p.tries = same ? p.tries + 1 : 0;
         act_ = Act::off;
     }
-    const auto pdo = at_ == status ? status_pdo(drive_.node.number, drive_.place()) : motion_pdo(drive_.node.number, drive_.place());
+    const canopen::Pdo& pdo = drive_.known.pdos.reports[at_];
     auto settings = pdo.settings;
     settings.valid = act_ == Act::on;
     const std::uint16_t index = canopen::settings_index(pdo.direction, pdo.number);

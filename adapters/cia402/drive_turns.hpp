@@ -3,9 +3,11 @@
 // which PDOs actually arrive is observed, and they are moved by the difference.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "adapters/cia402/drive_node.hpp"
+#include "adapters/cia402/drive_pdos.hpp"
 #include "adapters/cia402/drive_steps.hpp"
 #include "gateway/drive/part.hpp"
 
@@ -14,7 +16,6 @@ class Axis;
 
 class PdoTurns : public drive::Part<Axis> {
 public:
-    enum Pdo : std::uint8_t { status, motion };
     using Part::Part;
 
     /// The set-up of the node writes PDOs with this transmission type.
@@ -22,13 +23,15 @@ public:
     /// The transfer in progress was lost.
     void forget() noexcept { act_ = Act::rest; }
     /// A PDO arrived in the present cycle.
-    void came(Pdo which, Turn& t);
+    void came(std::size_t which, Turn& t);
     /// True if a write may be sent now.
     [[nodiscard]] bool wants(Instant now) const noexcept;
     [[nodiscard]] Step next();
     void answered(bool done, Turn& t);
     /// The PDOs of the axis do not arrive in one cycle, and cannot be moved.
-    [[nodiscard]] bool apart() const noexcept { return reported_[status].tries > most_tries || reported_[motion].tries > most_tries; }
+    [[nodiscard]] bool apart() const noexcept {
+        return std::ranges::any_of(reported_, [](const Reported& p) { return p.tries > most_tries; });
+    }
 
 private:
     static constexpr int sure = 4, most_tries = 4, settled = 64;  ///< a PDO is occasionally delayed by another frame of its node
@@ -40,9 +43,10 @@ private:
         int tries = 0, in_place = 0;  ///< attempts without success; times in succession in the right cycle
     };
     [[nodiscard]] bool misplaced(const Reported& pdo) const noexcept;
+    [[nodiscard]] std::size_t first_misplaced() const noexcept;  ///< the number of reports: none is
     void give_up(Reported& pdo, std::string_view why, Turn& t);
 
-    std::array<Reported, 2> reported_{};
+    std::array<Reported, AxisPdos::most_reports> reported_{};
     Act act_ = Act::rest;
     std::size_t at_ = 0;
 };

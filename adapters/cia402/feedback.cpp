@@ -1,5 +1,5 @@
 // The feedback of a node and of its axes from PDOs, EMCY and heartbeats. Values of one picture belong to one SYNC: feedback is published
-// when both PDOs of that SYNC have arrived.
+// when all PDOs of that SYNC have arrived.
 #include <fmt/core.h>
 
 #include <cstdlib>
@@ -59,33 +59,30 @@ void Drive::on_heartbeat(const Frame& f, Turn& t) {
 }
 
 bool Drive::on_pdo(const Frame& f, Turn& t) {
+    const auto is_default = [&](std::size_t place) {
+        const std::uint32_t shift = per_axis * static_cast<std::uint32_t>(place) + node.number;
+        return canopen::is_data(f, status_base + shift) || canopen::is_data(f, motion_base + shift);
+    };
     for (const auto& place : axes) {
         Axis& a = *place;
-        const bool whole = a.listens() && !a.known.polled;
-        const std::uint32_t shift = per_axis * static_cast<std::uint32_t>(a.place()) + node.number;
-        const bool status = canopen::is_data(f, status_base + shift);
-        if (!status && !canopen::is_data(f, motion_base + shift)) continue;
-        if (!whole) {
-            node.presence.received(t.now);
-            return true;
-        }
+        const auto& reports = a.known.pdos.reports;
+        const auto it = std::ranges::find_if(reports, [&](const auto& p) { return canopen::is_data(f, p.settings.id); });
+        if (it == reports.end() && !is_default(a.place())) continue;
+        if (it == reports.end() || !a.listens() || a.known.polled) return node.presence.received(t.now), true;
         if (node.stopped) nmt.back(t);
-        a.turns.came(status ? PdoTurns::status : PdoTurns::motion, t);
-        if (status) {
-            a.feedback.on_status(f.data(), t);
-        } else {
-            a.feedback.on_motion(f.data(), t);
-        }
+        const auto which = static_cast<std::size_t>(it - reports.begin());
+        a.turns.came(which, t);
+        a.feedback.on_report(which, f.data(), t);
         return true;
     }
-    if (axes.empty() && (canopen::is_data(f, status_base + node.number) || canopen::is_data(f, motion_base + node.number)))
-        return node.presence.received(t.now), true;
+    if (axes.empty() && is_default(0)) return node.presence.received(t.now), true;
     return false;
 }
 
 void Feedback::begin(Instant now) {
     deaf_ = 0;
-    status_new_ = motion_new_ = seen_ = false;
+    fresh_reports_ = 0;
+    seen_ = false;
     fallen_ = 0;
     place_at_ = {};
     if (drive_.known.polled) drive_.polled.begin_anew();
@@ -107,29 +104,31 @@ void Feedback::restarted() {
     known.cw = 0;
 }
 
-void Feedback::on_status(std::span<const std::uint8_t> b, Turn& t) {
-    AxisKnown& known = drive_.known;
-    if (b.size() != (known.has_mode ? 7u : 6u)) {
+void Feedback::on_report(std::size_t which, std::span<const std::uint8_t> bytes, Turn& t) {
+    const auto& reports = drive_.known.pdos.reports;
+    if (canopen::unpack(reports[which].mapping, bytes, raw_) != canopen::PdoLength::fits) {
         ++drive_.node.line.counters.garbled;
         return;
     }
-    known.fb.native_status = static_cast<std::uint32_t>(canopen::low_first(b.first(2)));
-    known.fb.position = signed_of(b.subspan(2, 4));
-    known.mode = known.has_mode ? static_cast<int>(signed_of(b.subspan(6, 1))) : known.ordered_mode;
-    drive_.stream.mode_shown(known.mode, t);
-    status_new_ = true;
-    if (motion_new_ || !known.reports_motion()) learnt(t);
+    for (std::size_t i = 0; i < raw_.size(); ++i)
+        take(reports[which].mapping[i].address, raw_[i], reports[which].mapping[i].bits, t);
+    fresh_reports_ |= 1u << which;
+    if (fresh_reports_ != (1u << reports.size()) - 1) return;
+    if (!drive_.known.pdos.carries(object::velocity)) calculate_velocity(t.now);
+    if (!drive_.known.pdos.carries(object::demand)) drive_.known.fb.position_demand = drive_.known.fb.position;
+    learnt(t);
 }
-void Feedback::on_motion(std::span<const std::uint8_t> b, Turn& t) {
+void Feedback::take(Address object, std::uint64_t raw, std::uint8_t bits, Turn& t) {
     AxisKnown& known = drive_.known;
-    if (b.size() != (known.has_velocity ? 4u : 0u) + (known.has_demand ? 4u : 0u)) {
-        ++drive_.node.line.counters.garbled;
-        return;
-    }
-    if (known.has_velocity) known.fb.velocity = signed_of(b.first(4));
-    if (known.has_demand) known.fb.position_demand = signed_of(b.last(4));
-    motion_new_ = true;
-    if (status_new_) learnt(t);
+    const auto is = [&](Address wanted) { return object == of_axis(wanted, drive_.place()); };
+    const std::int64_t value = canopen::as_signed(raw, bits);
+    if (is(object::statusword)) known.fb.native_status = static_cast<std::uint32_t>(raw);
+    if (is(object::position)) known.fb.position = value;
+    if (is(object::velocity)) known.fb.velocity = value;
+    if (is(object::demand)) known.fb.position_demand = value;
+    if (!is(object::mode_shown)) return;
+    known.mode = static_cast<int>(value);
+    drive_.stream.mode_shown(known.mode, t);
 }
 void Feedback::on_values(std::uint32_t status_word, std::int64_t position, int mode, std::int64_t velocity, Turn& t) {
     AxisKnown& known = drive_.known;
@@ -137,14 +136,15 @@ void Feedback::on_values(std::uint32_t status_word, std::int64_t position, int m
     known.fb.position = position;
     known.fb.position_demand = position;
     known.mode = known.has_mode ? mode : known.ordered_mode;
-    if (known.has_velocity) known.fb.velocity = velocity;
+    if (known.has_velocity)
+        known.fb.velocity = velocity;
+    else
+        calculate_velocity(t.now);
     drive_.stream.mode_shown(known.mode, t);
     learnt(t);
 }
-void Feedback::calculate_missing(Instant now) noexcept {
+void Feedback::calculate_velocity(Instant now) noexcept {
     AxisKnown& known = drive_.known;
-    if (!known.has_demand) known.fb.position_demand = known.fb.position;
-    if (known.has_velocity) return;
     constexpr Duration shortest = std::chrono::milliseconds(15);
     constexpr std::int64_t flicker = 2;  // increments: of an encoder at standstill
     if (place_at_ != Instant{} && now < place_at_ + shortest) return;
@@ -168,7 +168,7 @@ void Feedback::on_position(std::int64_t position, Turn& t) {
 }
 
 void Feedback::after_sync() noexcept {
-    if (!drive_.turns.apart()) status_new_ = motion_new_ = false;
+    if (!drive_.turns.apart()) fresh_reports_ = 0;
 }
 void Feedback::on_error_code(std::uint16_t code) noexcept {
     std::uint16_t& shown = drive_.known.fb.error_code;
@@ -205,12 +205,12 @@ bool Feedback::deaf(Instant now) noexcept {
 
 void Feedback::learnt(Turn& t) {
     Node& node = drive_.node;
-    status_new_ = motion_new_ = false;
+    fresh_reports_ = 0;
     deaf_ = 0;
     node.presence.answered();
-    ++node.line.counters.exchanges;  // a SYNC counts as the request, both PDOs as the answer
+    ++node.line.counters.exchanges;  // a SYNC counts as the request, its PDOs as the answer
     look_by(t.now + std::max<Duration>(3 * node.line.cycle(), std::chrono::milliseconds(150)));
-    calculate_missing(t.now);
+    if (!drive_.known.has_mode) drive_.known.mode = drive_.known.ordered_mode;
     if (older_than_power(drive_.known.fb.native_status, t.now)) {
         drive_.known.fb.native_status = judged_;
         return;

@@ -1,10 +1,12 @@
-// Feedback turns the PDOs of an axis into its feedback and monitors that they arrive. Feedback is reported when both PDOs of one SYNC have
-// arrived, so that it never mixes two instants. Values read by SDO that are newer than the last PDO are taken, too. If a drive lacks a
-// measured value, the velocity is calculated from its positions, the demand is the position, and the mode is the one that was ordered.
+// Feedback turns the PDOs of an axis into its feedback and monitors that they arrive. Feedback is reported when all PDOs of one SYNC have
+// arrived, so that it never mixes two instants. Values read by SDO that are newer than the last PDO are taken, too. If a
+// measured value is in none of them, the velocity is calculated from its positions, the demand is the position, and the mode is the one
+// that was ordered.
 #pragma once
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "adapters/cia402/drive_node.hpp"
 #include "adapters/cia402/drive_plans.hpp"
@@ -22,8 +24,8 @@ public:
     void forget() noexcept;
     /// The node has restarted: its set-up, its zero position and its orders are lost.
     void restarted();
-    void on_status(std::span<const std::uint8_t> bytes, Turn& t);
-    void on_motion(std::span<const std::uint8_t> bytes, Turn& t);
+    /// A PDO of the axis; `which` counts its reports from 0.
+    void on_report(std::size_t which, std::span<const std::uint8_t> bytes, Turn& t);
     /// A complete set that was read by SDO. A mode or velocity that the drive does not have is not used.
     void on_values(std::uint32_t status_word, std::int64_t position, int mode, std::int64_t velocity, Turn& t);
     void after_sync() noexcept;
@@ -50,8 +52,9 @@ public:
 
 private:
     void learnt(Turn& t);
+    void take(Address object, std::uint64_t raw, std::uint8_t bits, Turn& t);
     void look_by(Instant at) noexcept;
-    void calculate_missing(Instant now) noexcept;
+    void calculate_velocity(Instant now) noexcept;
     void judge(Turn& t);
     void judge_order(unsigned statusword, Instant now);
     [[nodiscard]] bool may_have_arrived(Instant now) const noexcept;
@@ -60,7 +63,9 @@ private:
     [[nodiscard]] bool older_than_power(unsigned statusword, Instant now) noexcept;
     [[nodiscard]] Course course() const noexcept;
 
-    bool status_new_ = false, motion_new_ = false, need_code_ = false;
+    std::vector<std::uint64_t> raw_{};  ///< entries of the last PDO
+    unsigned fresh_reports_ = 0;        ///< bit by report: it has arrived in the present cycle
+    bool need_code_ = false;
     bool seen_ = false;                     ///< complete feedback has arrived since the start
     bool power_lost_ = false;               ///< the drive has left operation by itself, and has had no voltage since
     bool power_shown_ = false;              ///< a report has shown operation or a fault since the control word enables the axis

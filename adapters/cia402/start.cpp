@@ -243,6 +243,7 @@ void Axis::first_read(const Step& step, const canopen::SdoEnd& end) {
     if (a == object::velocity) known.has_velocity = end.done();
     if (a == object::demand) known.has_demand = end.done();
     if (a == object::mode_shown) known.has_mode = end.done();
+    if (a == object::mode_shown && end.done()) known.mode = static_cast<int>(signed_of(end.data));
     if (a == object::mode && end.done()) known.ordered_mode = static_cast<int>(signed_of(end.data));
     // A drive that does not say which modes it has may have those of the profile: a mode that it lacks is refused when it is ordered.
     constexpr std::uint32_t usual_modes = 0x3A5;  // 1, 3, 6, 8, 9, 10
@@ -275,9 +276,9 @@ void Axis::set_up(std::vector<Step>& steps) {
 void Axis::want_pdos(std::vector<PdoSetUp::Wanted>& wanted) {
     if (!known.profile) return;
     known.polled = false;
-    known.targets.fill(true);
+    known.pdos = {};
     std::vector<canopen::Pdo> reports{status_pdo(node.number, place_, known.has_mode)};
-    if (known.reports_motion()) reports.push_back(motion_pdo(node.number, place_, known.has_velocity, known.has_demand));
+    if (known.has_velocity || known.has_demand) reports.push_back(motion_pdo(node.number, place_, known.has_velocity, known.has_demand));
     for (canopen::Pdo& p : reports) {
         p.settings.transmission = static_cast<std::uint8_t>(node.line.plan.turns);
         wanted.push_back({std::move(p), this});
@@ -296,7 +297,13 @@ std::string lacks(const AxisKnown& known) {
     const auto add = [&](bool missing, std::string_view said) {
         if (missing) text += fmt::format("{}{}", text.empty() ? "" : "; ", said);
     };
+    add(known.pdos.plan == PdoPlan::file, "the mapping of its PDOs is fixed, and is used as it is");
     add(known.polled, "its PDOs cannot be set up: its values are read by SDO, and are older than those of other drives");
+    const auto unmapped = [&](bool has, Address a) { return has && !known.polled && !known.pdos.carries(a); };
+    add(unmapped(known.has_velocity, object::velocity), "606Ch is in none of its PDOs: the velocity is calculated from its positions");
+    add(unmapped(known.has_demand, object::demand), "6062h is in none of its PDOs: the actual position is shown as demand");
+    add(unmapped(known.has_mode, object::mode_shown),
+        "6061h is in none of its PDOs: the mode is read when another one is ordered, and a change by the drive itself is not seen");
     add(!known.has_velocity, "it has no actual velocity (606Ch): the velocity is calculated from its positions");
     add(!known.has_demand, "it has no position demand (6062h): the actual position is shown instead");
     add(!known.has_mode, "it does not show its mode (6061h): the mode that was ordered is shown");

@@ -160,6 +160,45 @@ TEST(Cia402Freedoms, PdosAreSetUpInEachStateInPreOperationalOrNotAtAll) {
     }
 }
 
+TEST(Cia402Freedoms, TransmissionTypesAreFixed) {
+    for (const int fixed : {0, 1}) {
+        FreeBench b({{"pdo_types_fixed", fixed}});
+        EXPECT_EQ(b.write(0x1800, 2, 1, 1), fixed ? Abort::read_only : Abort::none);
+        EXPECT_EQ(b.write(0x1403, 2, 1, 1), fixed ? Abort::read_only : Abort::none);
+        EXPECT_EQ(b.read(0x1800, 2) & 0xFF, fixed ? 255 : 1);
+    }
+}
+
+TEST(Cia402Freedoms, TheFirstMappingsAreThoseOfTheDriveOrOfTheProfile) {
+    FreeBench own, usual({{"pdo_defaults", 1}});
+    EXPECT_EQ(own.read(0x1A01, 0), 1);
+    EXPECT_EQ(own.read(0x1A01, 1), 0x60640020);
+    constexpr std::int64_t transmit[] = {0, 0x60610008, 0x60640020, 0x606C0020}, receive[] = {0, 0x60600008, 0x607A0020, 0x60FF0020};
+    for (int n = 0; n < 4; ++n) {
+        SCOPED_TRACE(n);
+        EXPECT_EQ(usual.read(static_cast<std::uint16_t>(0x1A00 + n), 0), n == 0 ? 1 : 2);
+        EXPECT_EQ(usual.read(static_cast<std::uint16_t>(0x1A00 + n), 1), 0x60410010);
+        EXPECT_EQ(usual.read(static_cast<std::uint16_t>(0x1A00 + n), 2), transmit[n]);
+        EXPECT_EQ(usual.read(static_cast<std::uint16_t>(0x1600 + n), 0), n == 0 ? 1 : 2);
+        EXPECT_EQ(usual.read(static_cast<std::uint16_t>(0x1600 + n), 1), 0x60400010);
+        EXPECT_EQ(usual.read(static_cast<std::uint16_t>(0x1600 + n), 2), receive[n]);
+    }
+}
+
+TEST(Cia402Freedoms, SingleObjectsCannotBeMapped) {
+    constexpr std::pair<int, std::int64_t> objects[] = {{1, 0x60610008}, {2, 0x606C0020}, {4, 0x60620020}};
+    for (const int mask : {0, 1, 2, 4, 7}) {
+        SCOPED_TRACE(mask);
+        FreeBench b({{"unmappable", mask}});
+        ASSERT_EQ(b.write(0x1A01, 0, 0, 1), Abort::none);
+        for (const auto& [bit, word] : objects) {
+            EXPECT_EQ(b.write(0x1A01, 1, word, 4), (mask & bit) != 0 ? Abort::not_mappable : Abort::none);
+            EXPECT_NE(b.read(static_cast<std::uint16_t>(word >> 16)), -1) << "it exists";
+        }
+        EXPECT_EQ(b.write(0x1A01, 1, 0x60410010, 4), Abort::none);
+    }
+}
+
 TEST(Cia402Freedoms, AnIdentifierIsChangedOnlyWhileItIsInvalid) {
     for (const int strict : {0, 1, 2}) {
         SCOPED_TRACE(strict);

@@ -48,6 +48,9 @@ struct Freedoms {
         sdo_answer = ms("sdo_answer_ms");
         for (std::size_t i = 0; i < optional_objects.size(); ++i)
             has[i] = of(optional_objects[i].freedom, 1) != 0;
+        pdo_types_fixed = of("pdo_types_fixed") != 0;
+        usual_pdos = of("pdo_defaults") != 0;
+        unmappable = static_cast<unsigned>(of("unmappable"));
         extra_tpdos = static_cast<std::uint16_t>(of("extra_tpdos"));
         emergency_after_status = of("emcy_after_status") != 0;
         heartbeat_jitter = ms("heartbeat_jitter_ms");
@@ -71,6 +74,9 @@ struct Freedoms {
     bool strict_mapping = false;
     Duration sdo_answer{};
     std::array<bool, optional_objects.size()> has{true, true, true, true, true, true, true};
+    bool pdo_types_fixed = false;         ///< transmission types are read only
+    bool usual_pdos = false;              ///< the default mappings are those of CiA 402-5
+    unsigned unmappable = 0;              ///< bit 0: 6061h, 1: 606Ch, 2: 6062h: cannot be mapped
     std::uint16_t extra_tpdos = 0;        ///< further TPDOs that are on at power-on, 0 to 3
     bool emergency_after_status = false;  ///< EMCY is sent after the PDOs with the status word that has changed by the same event
     Duration heartbeat_jitter{};
@@ -82,6 +88,10 @@ struct Freedoms {
     ShaftFreedoms shaft;
     std::uint64_t seed = 0;  ///< for behaviour that changes each time
 
+    [[nodiscard]] bool maps(std::uint16_t index) const noexcept {
+        const unsigned bit = index == 0x6061 ? 1 : index == 0x606C ? 2 : index == 0x6062 ? 4 : 0;
+        return (unmappable & bit) == 0 && !lacks(index);
+    }
     [[nodiscard]] bool lacks(std::uint16_t index) const noexcept {
         if (pdo_setup == PdoSetup::no_pdos && index >= 0x1400 && index < 0x1C00) return true;
         const auto o = std::ranges::find(optional_objects, index, &OptionalObject::index);

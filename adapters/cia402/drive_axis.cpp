@@ -50,7 +50,7 @@ Want Axis::wants(Instant now) const noexcept {
     if (!node.presence.is(Phase::ready)) return Want::nothing;
     if (node.stopped) return (job_ ? now >= job_->wait_until : !queue_.empty()) ? Want::command : Want::nothing;
     if (feedback.needs_error_code() || turns.wants(now) || rates.wants()) return Want::quick_poll;
-    if (job_ ? now >= job_->wait_until : !queue_.empty() || stream.waits()) return Want::command;
+    if (job_ ? now >= job_->wait_until : begins(now)) return Want::command;
     if (known.polled && now >= polled.due()) return Want::poll;
     return !job_ && now >= feedback.check_at() ? Want::poll : Want::nothing;
 }
@@ -58,8 +58,11 @@ Instant Axis::wish() const noexcept {
     if (const Stop* stop = stops_.first()) return stop->job ? stop->job->wait_until : never;
     if (!node.presence.is(Phase::ready)) return never;
     if (known.polled && !node.stopped) return std::min(polled.due(), job_ ? job_->wait_until : never);
-    return job_ ? job_->wait_until : node.stopped ? never : feedback.check_at();
+    if (job_) return job_->wait_until;
+    if (node.stopped) return never;
+    return queue_.empty() ? feedback.check_at() : std::min(feedback.check_at(), feedback.doubted_until());
 }
+bool Axis::begins(Instant now) const noexcept { return (!queue_.empty() || stream.waits()) && now >= feedback.doubted_until(); }
 
 std::optional<Ask> Axis::next(Turn& t) {
     const int retries = node.line.timing.retries;
@@ -73,9 +76,9 @@ std::optional<Ask> Axis::next(Turn& t) {
     if (!node.stopped) {
         if (auto own = next_of_its_own(t)) return own;
     }
-    while (!job_ && !queue_.empty())
+    while (!job_ && !queue_.empty() && (node.stopped || begins(t.now)))
         begin(queue_.pop(), t);
-    if (!job_ && stream.waits()) job_ = stream.begin(t);
+    if (!job_ && stream.waits() && begins(t.now)) job_ = stream.begin(t);
     if (job_ && t.now >= job_->wait_until) {
         const Step& s = job_->steps[job_->at];
         const bool once = std::holds_alternative<Native>(job_->command.body) && s.kind == Step::Kind::write;
@@ -299,7 +302,10 @@ void Axis::moves_now(const CommandBody& body, std::int64_t here, Turn& t) {
         feedback.ordered(order, target, t);
     }
     if (std::holds_alternative<Home>(body)) feedback.ordered(Order::homing, {}, t);
-    if (std::holds_alternative<SetPosition>(body)) known.fb.referenced = true;
+    if (std::holds_alternative<SetPosition>(body)) {
+        known.fb.referenced = true;
+        known.order = Order::none;  // the target was a number of before
+    }
     if (const auto* home = std::get_if<Home>(&body); home && home->method != 0) known.homing_method = home->method;
 }
 

@@ -35,6 +35,8 @@ struct AxisKnown {
     std::int64_t homing_method = 0;
     std::array<std::int64_t, 3> rates{10'000, 50'000, 50'000};  ///< 6081h, 6083h, 6084h
     Order order = Order::none;
+    std::optional<std::int64_t> target{};  ///< of the positioning that was ordered last
+    bool at_target = false;                ///< the drive shows that it has reached this target, and its position is near it
     /// 60C2h: value times ten to the power of the index, in seconds; as it was written to the drive.
     struct Interpolation {
         std::int64_t value = 0, index = -3;

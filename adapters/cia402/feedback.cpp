@@ -183,7 +183,7 @@ void Feedback::error_code_read(const canopen::SdoEnd& end, Turn& t) {
 void Feedback::ordered(Order order, std::optional<std::int64_t> target, Turn& t) {
     AxisFeedback& fb = drive_.known.fb;
     drive_.known.order = order;
-    target_ = target;
+    drive_.known.target = target;
     way_ = target ? saturated_difference(*target, fb.position) : 0;
     left_ = false;
     ordered_at_ = t.now;
@@ -207,6 +207,7 @@ void Feedback::learnt(Turn& t) {
     Node& node = drive_.node;
     fresh_reports_ = 0;
     deaf_ = 0;
+    doubted_until_ = {};
     node.presence.answered();
     ++node.line.counters.exchanges;  // a SYNC counts as the request, its PDOs as the answer
     look_by(t.now + std::max<Duration>(3 * node.line.cycle(), std::chrono::milliseconds(150)));
@@ -316,14 +317,18 @@ void Feedback::judge_order(unsigned sw, Instant now) {
     fb.target_reached = known.order == Order::position && known.mode == 1 && (sw & 0x400u) && !fresh && may_have_arrived(now);
     const bool on_its_way = (known.order == Order::position && !fb.target_reached) || fb.homing;
     fb.moving = fb.velocity != 0 || on_its_way || drive_.stream.moves();
+    known.at_target = fb.target_reached && known.target && near_target();
 }
 
 /// A drive that clears bit 10 late has not arrived although it says so. A short positioning may begin and end between two reports, so that
 /// nobody has seen bit 10 cleared: then the axis is near its target. If neither is true for long, the drive is believed.
 bool Feedback::may_have_arrived(Instant now) const noexcept {
+    return left_ || !drive_.known.target || now >= ordered_at_ + drive_.node.start_timeout || near_target();
+}
+bool Feedback::near_target() const noexcept {
     constexpr std::int64_t near = 20;  // increments
-    if (left_ || !target_ || now >= ordered_at_ + drive_.node.start_timeout) return true;
-    return std::llabs(saturated_difference(*target_, drive_.known.fb.position)) <= std::max<std::int64_t>(near, std::llabs(way_) / 50);
+    const AxisKnown& known = drive_.known;
+    return std::llabs(saturated_difference(*known.target, known.fb.position)) <= std::max<std::int64_t>(near, std::llabs(way_) / 50);
 }
 
 void Feedback::emit(Turn& t) {

@@ -21,6 +21,9 @@ public:
     using Part::Part;
 
     void begin(Instant now);
+    /// The state of the axis is not known any more: orders wait for the next picture, but not for ever.
+    void doubt(Instant now) noexcept { doubted_until_ = now + std::chrono::seconds(2); }
+    [[nodiscard]] Instant doubted_until() const noexcept { return doubted_until_; }
     void forget() noexcept;
     /// The node has restarted: its set-up, its zero position and its orders are lost.
     void restarted();
@@ -58,6 +61,7 @@ private:
     void judge(Turn& t);
     void judge_order(unsigned statusword, Instant now);
     [[nodiscard]] bool may_have_arrived(Instant now) const noexcept;
+    [[nodiscard]] bool near_target() const noexcept;
     void emit(Turn& t);
     void watch_power(unsigned statusword);
     [[nodiscard]] bool older_than_power(unsigned statusword, Instant now) noexcept;
@@ -66,18 +70,18 @@ private:
     std::vector<std::uint64_t> raw_{};  ///< entries of the last PDO
     unsigned fresh_reports_ = 0;        ///< bit by report: it has arrived in the present cycle
     bool need_code_ = false;
-    bool seen_ = false;                     ///< complete feedback has arrived since the start
-    bool power_lost_ = false;               ///< the drive has left operation by itself, and has had no voltage since
-    bool power_shown_ = false;              ///< a report has shown operation or a fault since the control word enables the axis
-    Instant enabled_at_{};                  ///< the last report before that control word
-    std::uint32_t judged_ = 0;              ///< the status word of the picture
-    int fallen_ = 0;                        ///< reports in succession of an axis that is off under a control word that enables it
-    int fresh_ = 0;                         ///< status words since a new set-point that do not concern it yet
-    bool left_ = false;                     ///< since the order, the drive has shown that the target is not reached
-    std::optional<std::int64_t> target_{};  ///< of the positioning
-    std::int64_t way_ = 0;                  ///< from its begin to its target
+    bool seen_ = false;         ///< complete feedback has arrived since the start
+    bool power_lost_ = false;   ///< the drive has left operation by itself, and has had no voltage since
+    bool power_shown_ = false;  ///< a report has shown operation or a fault since the control word enables the axis
+    Instant enabled_at_{};      ///< the last report before that control word
+    std::uint32_t judged_ = 0;  ///< the status word of the picture
+    int fallen_ = 0;            ///< reports in succession of an axis that is off under a control word that enables it
+    int fresh_ = 0;             ///< status words since a new set-point that do not concern it yet
+    bool left_ = false;         ///< since the order, the drive has shown that the target is not reached
+    std::int64_t way_ = 0;      ///< of the positioning, from its begin to its target
     Instant ordered_at_{};
     Instant check_at_ = never;
+    Instant doubted_until_{};
     Instant place_at_{};  ///< of the position from which the velocity is calculated
     std::int64_t place_ = 0;
     int deaf_ = 0;  ///< SDO answers in succession without a PDO between them

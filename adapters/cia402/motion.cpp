@@ -154,7 +154,12 @@ std::string plan_move(const Node& node, const AxisKnown& known, Job& job, const 
     }
     take_start_back(known, job);
     enter_mode(node, known, job, 1, is_halted(known));
-    if (m.kind == Move::Kind::relative) job.read(object::position);
+    // From the target that was reached: the position of a drive at rest differs from it by its following error, and some drives show it
+    // late, so that the differences of several relative moves would add up.
+    if (m.kind == Move::Kind::relative && known.order == Order::position && known.at_target)
+        job.here = *known.target;
+    else if (m.kind == Move::Kind::relative)
+        job.read(object::position);
     job.write(object::target_position, m.target, 4);
     job.steps.back().from_here = m.kind == Move::Kind::relative;
     job.await(Step::Awaits::release, object::statusword, 0x1000, 0, node.start_timeout);

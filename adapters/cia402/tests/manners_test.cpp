@@ -266,6 +266,36 @@ TEST(Cia402Handshake, AFaultIsResetWhereTheControlWordIsSampled) {
     EXPECT_TRUE(b.enable());
 }
 
+// --- relative moves ----------------------------------------------------------------------------------------------------------
+
+TEST(Cia402Relative, TheDifferencesOfMovesToTheirTargetsDoNotAddUp) {
+    Manners b({{"friction_increments", "2"}});
+    b.run(2s);
+    ASSERT_TRUE(b.enable());
+    const double begin = b.place();
+    const auto by = [&](std::int64_t way) {
+        Move m = LineBench::to(way);
+        m.kind = Move::Kind::relative;
+        ASSERT_TRUE(good(b.ask(m)));
+        b.run(1s);
+        ASSERT_TRUE(b.axis.target_reached);
+    };
+    for (int i = 0; i < 20; ++i)
+        by(1'000);
+    EXPECT_NEAR(b.place() - begin, 20'000, 4);
+    ASSERT_TRUE(good(b.ask(SetPosition{0}))) << "the target was a number of before";
+    const double zero = b.place();
+    by(1'000);
+    EXPECT_NEAR(b.place() - zero, 1'000, 4);
+    ASSERT_TRUE(good(b.ask(LineBench::to(500'000))));
+    b.run(300ms);
+    ASSERT_TRUE(good(b.ask(Halt{})));
+    b.run(1s);
+    const double stood = b.place();
+    by(1'000);
+    EXPECT_NEAR(b.place() - stood, 1'000, 40) << "a target that was not reached counts for nothing";
+}
+
 // --- mappings, NMT ---------------------------------------------------------------------------------------------------------
 
 TEST(Cia402PdoSetup, ADriveThatMapsInPreOperationalAloneIsBroughtBackAfterARestartOfTheGateway) {
@@ -372,6 +402,27 @@ TEST(Cia402NmtStop, ATurningNodeThatSomebodyStopsIsWatchedToldAndStoppedByAStop)
             b.run(2s);
             EXPECT_EQ(b.speed(), 0);
         }
+    }
+}
+
+TEST(Cia402NmtStop, AnOrderBehindTheStartWaitsForTheStateThatTheDriveHasThen) {
+    for (const auto& [setup, later] : {std::pair{"0", 520ms}, {"4", 100ms}, {"4", 300ms}, {"4", 500ms}, {"4", 700ms}}) {
+        SCOPED_TRACE(testing::Message() << setup << ", " << later.count());
+        Manners b({{"pdo_setup", setup}, {"sdo_answer_ms", "100"}}, {{"watchdog_action", "disable"}});
+        b.run(6s);
+        ASSERT_TRUE(b.enable());
+        b.run(1s);
+        b.others(canopen::nmt_frame(canopen::NmtCommand::stop, 5));
+        b.run(3s);
+        ASSERT_TRUE(good(b.ask(Action{"nmt_start", {}, {}})));
+        b.run(later);  // its heartbeat tells that it is back
+        const Result r = b.ask(LineBench::to(1000));
+        EXPECT_EQ(r.reason, Reason::wrong_state) << "it has lost its power meanwhile";
+        EXPECT_NE(r.text.find("enable"), std::string::npos) << r.text;
+        ASSERT_TRUE(b.enable());
+        ASSERT_TRUE(good(b.ask(LineBench::to(1000))));
+        b.run(3s);
+        EXPECT_EQ(b.place(), 1000);
     }
 }
 

@@ -9,6 +9,34 @@ const nothingToPreload = {
   load: (id: string) => (id === '\0vite/preload-helper.js' ? 'export const __vitePreload = (load) => load();' : undefined),
 };
 
+/** What tells about modules while bundles are made. */
+interface Modules {
+  getModuleInfo(id: string): { importers: readonly string[] } | null;
+}
+/** The modules that a file imports, those that they import, and so on; itself, too. Whatever is imported later (`import()`) is none of them. */
+function reachedFrom(file: RegExp): (id: string, modules: Modules) => boolean {
+  const known = new Map<string, boolean>();
+  return function reached(id: string, modules: Modules): boolean {
+    const before = known.get(id);
+    if (before !== undefined) return before;
+    known.set(id, false); // modules may import each other
+    const yes: boolean = file.test(id) || (modules.getModuleInfo(id)?.importers ?? []).some((by) => reached(by, modules));
+    known.set(id, yes);
+    return yes;
+  };
+}
+const inFirstScript = reachedFrom(/\/src\/main\.tsx$/);
+const inBeginning = reachedFrom(/\/src\/start\.tsx$/);
+/**
+ * One bundle has everything that each visit needs, one small parts that many pages share; the others are made by who imports what. The first script
+ * stays apart: it runs before the language is there, and nothing that holds sentences may run with it.
+ */
+const groups = [
+  { debugName: 'first', name: (id: string, modules: Modules) => (inFirstScript(id, modules) ? 'first' : null), priority: 3 },
+  { debugName: 'beginning', name: (id: string, modules: Modules) => (inBeginning(id, modules) ? 'beginning' : null), priority: 2 },
+  { name: 'common', minShareCount: 4, priority: 1 },
+];
+
 /**
  * Of the library that draws plots only the parts that this page uses. Its times are plain numbers with texts of the page, its scales are linear, its
  * curves have neither fill nor bands, and the legend is the page's own. Each pair is a text of the library and its replacement.
@@ -65,6 +93,12 @@ export default defineConfig({
     cssCodeSplit: false,
     sourcemap: false,
     reportCompressedSize: false,
+    manifest: true, // for scripts/check-build.mjs, which removes it
+    rolldownOptions: {
+      output: {
+        codeSplitting: { groups },
+      },
+    },
   },
   test: {
     include: ['tests/**/*.test.{ts,tsx}'],

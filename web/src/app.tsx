@@ -1,46 +1,34 @@
 // App: the frame around whatever page the address names. In: the route. Out: the whole page.
 import { useEffect, useRef } from 'preact/hooks';
 import { Head } from './components/frame';
+import { later } from './components/later';
 import { Spoken } from './components/spoken';
 import { Strip } from './components/strip';
 import { route } from './router';
-import { AxisPage, headingOf } from './pages/axis';
-import { EventsPage } from './pages/events';
-import { FleetPage } from './pages/fleet';
-import { GatewayPage } from './pages/gateway';
-import { LinePage, LinesPage } from './pages/lines';
-import { MappingsPage } from './pages/mappings';
-import { RecorderPage } from './pages/recorder';
-import { RecipePage } from './pages/recipe';
-import { RecipesPage } from './pages/recipes';
 import { Overview } from './pages/overview';
-import { ParametersPage } from './pages/parameters';
-import { ReportPage } from './pages/report';
-import { SitePage } from './pages/site';
 import { SignInPage } from './pages/sign-in';
-import { UsersPage } from './pages/users';
 import { useGateway } from './gateway';
 import { rich, t } from './language';
+import { titleOf } from './text/title';
 
-const titles = {
-  overview: t('Axes'),
-  lines: t('Lines and drives'),
-  mappings: t('Mappings'),
-  recipes: t('Recipes'),
-  site: t('Site'),
-  events: t('Events'),
-  recorder: t('Recorder'),
-  gateway: t('Gateway'),
-  report: t('Commissioning report'),
-  fleet: t('Fleet'),
-  users: t('Users'),
-  'sign-in': t('Sign in'),
-  unknown: t('No such page'),
-};
+// The overview and the sign-in are what a visit begins with; every other page has a bundle of its own.
+const AxisPage = later(() => import('./pages/axis').then((m) => m.AxisPage), 'page');
+const LinesPage = later(() => import('./pages/lines').then((m) => m.LinesPage), 'page');
+const LinePage = later(() => import('./pages/lines').then((m) => m.LinePage), 'page');
+const RecipesPage = later(() => import('./pages/recipes').then((m) => m.RecipesPage), 'page');
+const RecipePage = later(() => import('./pages/recipe').then((m) => m.RecipePage), 'page');
+const RecorderPage = later(() => import('./pages/recorder').then((m) => m.RecorderPage), 'page');
+const EventsPage = later(() => import('./pages/events').then((m) => m.EventsPage), 'page');
+const GatewayPage = later(() => import('./pages/gateway').then((m) => m.GatewayPage), 'page');
+const ReportPage = later(() => import('./pages/report').then((m) => m.ReportPage), 'page');
+const FleetPage = later(() => import('./pages/fleet').then((m) => m.FleetPage), 'page');
+const MappingsPage = later(() => import('./pages/mappings').then((m) => m.MappingsPage), 'page');
+const ParametersPage = later(() => import('./pages/parameters').then((m) => m.ParametersPage), 'page');
+const SitePage = later(() => import('./pages/site').then((m) => m.SitePage), 'page');
+const UsersPage = later(() => import('./pages/users').then((m) => m.UsersPage), 'page');
 
 export function App() {
-  const r = route.value;
-  const title = r.page === 'parameters' ? t('Parameters of {name}', { name: r.name }) : r.page === 'axis' ? headingOf(r.name, r.tab) : r.page === 'line' || r.page === 'recipe' ? r.name : titles[r.page];
+  const title = titleOf(route.value);
   useEffect(() => {
     document.title = `${title} · axisgate`;
   }, [title]);

@@ -80,12 +80,24 @@ export function go(path: string): void {
   arrive(true);
 }
 
+/** Whether the heading of the page that was arrived at has yet to get the keyboard. */
+let headingWanted = false;
+
 function arrive(byLink: boolean): void {
   route.value = routeOf(location.pathname);
+  headingWanted = false;
   if (!byLink) return;
   scrollTo(0, 0);
-  // Keyboard and screen reader begin at the new page, as they would after a real load.
-  requestAnimationFrame(() => document.querySelector<HTMLElement>('main h1')?.focus({ preventScroll: true }));
+  headingWanted = true;
+  requestAnimationFrame(focusHeading);
+}
+
+/** Keyboard and screen reader begin at the new page, as they would after a real load. A page whose code comes later calls this when it is drawn. */
+export function focusHeading(): void {
+  const heading = headingWanted ? document.querySelector<HTMLElement>('main h1') : null;
+  if (!heading) return;
+  headingWanted = false;
+  heading.focus({ preventScroll: true });
 }
 
 export function startRouter(): void {

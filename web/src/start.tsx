@@ -10,6 +10,7 @@ import './styles/tokens.css';
 import './styles/base.css';
 import './styles/frame.css';
 import './styles/language.css';
+import './styles/later.css';
 import './styles/controls.css';
 import './styles/tile.css';
 import './styles/lists.css';
@@ -26,17 +27,19 @@ import './styles/users.css';
 import './styles/fleet.css';
 import './styles/recorder.css';
 
-applyTheme();
-startClock();
-watchKeyboard();
-startRouter();
-const gateway = new Gateway();
-gateway.start();
-// Who one is decides what is shown first; a gateway that does not answer keeps the stops off the screen for a second at most.
-await Promise.race([Promise.all([gateway.session.ask(), gateway.tab.settled]), new Promise((r) => setTimeout(r, 1000))]);
-render(
-  <GatewayProvider value={gateway}>
-    <App />
-  </GatewayProvider>,
-  document.getElementById('app') as HTMLElement,
-);
+export async function start(): Promise<void> {
+  applyTheme();
+  startClock();
+  watchKeyboard();
+  startRouter();
+  const gateway = new Gateway();
+  gateway.start();
+  // Who one is decides what is shown first; a gateway that does not answer keeps the stops off the screen for a second at most.
+  await Promise.race([Promise.all([gateway.session.ask(), gateway.tab.settled]), new Promise((r) => setTimeout(r, 1000))]);
+  render(
+    <GatewayProvider value={gateway}>
+      <App />
+    </GatewayProvider>,
+    document.getElementById('app') as HTMLElement,
+  );
+}

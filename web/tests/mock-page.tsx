@@ -1,6 +1,7 @@
 // The whole page over the mock door, in one process: every request and the stream are real, only the wire between them is not.
 // In: a door, perhaps furnished. Out: the page as a person has it: what it says, its buttons and fields, and the way to be somebody else beside it.
 // Nothing waits for time here: the world stands still until a test lets it go on.
+import './all-pages';
 import { render } from 'preact';
 import { afterAll, vi } from 'vitest';
 import { MockDoor } from '../dev/mock/door.mjs';

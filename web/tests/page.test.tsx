@@ -1,5 +1,6 @@
 // @vitest-environment happy-dom
 // The components over a store that is fed by hand: what a person sees of an axis, and what the page does with what is typed.
+import './all-pages';
 import { render } from 'preact';
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import type { Client } from '../src/api/client';
@@ -337,7 +338,6 @@ describe('alarms and pages', () => {
   });
   it.each([{ page: 'axis', name: 'feeder', tab: 'move' }, { page: 'axis', name: 'feeder', tab: 'drive' }, { page: 'axis', name: 'feeder', tab: 'events' }, { page: 'lines' }, { page: 'line', name: 'can0' }, { page: 'events' }, { page: 'gateway' }, { page: 'mappings' }, { page: 'parameters', name: 'feeder' }, { page: 'site' }] as const)('draws %o with one heading', async (r) => {
     route.value = r;
-    await tick();
-    expect(root.querySelectorAll('main h1')).toHaveLength(1);
+    await vi.waitFor(() => expect(root.querySelectorAll('main h1')).toHaveLength(1)); // its code may have yet to come
   });
 });

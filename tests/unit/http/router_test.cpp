@@ -101,6 +101,9 @@ TEST_F(HttpTest, SecurityHeadersEverywhere) {
     }
     EXPECT_EQ(call("GET", "/api/v1/about").headers.get("Cache-Control"), "no-store");
     EXPECT_EQ(call("GET", "/").headers.get("Cache-Control"), "no-cache");
+    EXPECT_EQ(call("GET", "/help/").headers.get("Cache-Control"), "no-cache");
+    EXPECT_EQ(call("GET", "/assets/main.js").headers.get("Cache-Control"), "max-age=31536000, immutable");
+    EXPECT_NE(call("GET", "/assets/gone.js").headers.get("Cache-Control"), "max-age=31536000, immutable");
 }
 
 TEST_F(HttpTest, HostsThatAreNotListedAreMisdirectedWhateverTheBind) {

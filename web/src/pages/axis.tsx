@@ -16,9 +16,9 @@ import { EventList } from '../components/events';
 import { DriveCompare } from '../components/drive-comparison';
 import { Hand } from '../components/hand';
 import { Empty } from '../components/lines';
+import { later } from '../components/later';
 import { memo } from '../components/memo';
 import { Mark } from '../components/pill';
-import { Scope } from '../components/scope';
 import { Section } from '../components/section';
 import { Specimen } from '../components/specimen';
 import { StateMachine } from '../components/state-machine';
@@ -27,18 +27,10 @@ import { useGateway } from '../gateway';
 import { linePath, recorderPath, type AxisTab } from '../router';
 import { commandedText } from '../text/authority';
 import { markOf, unitOf } from '../text/axis';
+import { headingOf } from '../text/title';
 
+const Scope = later(() => import('../components/scope').then((m) => m.Scope));
 const Controls = memo(FullControls, (a, b) => a.axis.name === b.axis.name && a.axis.unit === b.axis.unit);
-
-export function headingOf(name: string, tab: AxisTab): string {
-  switch (tab) {
-    case 'move': return name;
-    case 'scope': return t('Scope of {name}', { name });
-    case 'drive': return t('Drive of {name}', { name });
-    case 'simulation': return t('Simulation of {name}', { name });
-    case 'events': return t('Events of {name}', { name });
-  }
-}
 
 export function AxisPage({ name, tab }: { name: string; tab: AxisTab }) {
   const gateway = useGateway();

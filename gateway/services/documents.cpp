@@ -355,6 +355,7 @@ json::object family_document(const FamilyEntry& entry) {
     }
     o["uses_can"] = f.uses_can;
     o["uses_bytes"] = f.uses_bytes;
+    o["takes_description"] = f.takes_description;
     o["factory_address"] = f.factory_address;
     o["default_bit_rate"] = f.default_bit_rate == 0 ? json::value(nullptr) : json::value(f.default_bit_rate);
     o["default_format"] = text_or_null(f.default_format);

@@ -51,6 +51,7 @@ def test_the_values_of_a_dcf_are_compared_and_written_as_the_site_says(folder):
     with Gateway(folder, empty) as g:
         dcf = (TOP / "adapters/cia402/tests/eds/by_tool.dcf").read_bytes()
         assert g.request("POST", "/api/v1/descriptions?name=machine.dcf", dcf, {"Content-Type": "text/plain"})[0] == 201
+        assert g.get("/descriptions/machine.dcf")["commissioning"] == {"node": 12, "node_name": "lift", "bit_rate_kbit": 500}
         for n, rule in enumerate(("compare", "write")):
             g.send("POST", "/drives", {"name": rule, "line": "can0", "address": 5 + n, "presence": "twin", "description": "machine.dcf"}, 201)
             g.send("POST", "/axes", {"name": rule, "drive": rule, "number": 1 + n, "stored_parameters": rule}, 201)
@@ -61,6 +62,11 @@ def test_the_values_of_a_dcf_are_compared_and_written_as_the_site_says(folder):
             for power in (False, True):
                 g.send("PUT", f"/drives/{rule}/hand", {"power": power})
                 until(lambda: g.axis(rule)["online"] == power, 10, rule)
+
+        # Each parameter shows the value of the file, whether or not the drive has it; those that the file excludes show none.
+        listed = {p["id"]: p for p in g.get("/axes/compare/parameters")}
+        assert listed["6083h"]["configured"] == 7000 and g.get("/axes/compare/parameters/6083h")["configured"] == 7000
+        assert "configured" not in listed["1014h"] and "configured" not in g.get("/axes/compare/parameters/1014h")
 
         def told(axis):
             return [e["text"] for e in g.get(f"/events?axis={axis}") if e["kind"] == "parameters"]

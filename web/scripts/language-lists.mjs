@@ -29,6 +29,8 @@ export const exempt = {
   'components/mapping-paste.tsx': [/^unit[,\t]/],
   'components/assembly-table.tsx': [/^instance(, |\t)direction/],
   'components/mapping-list.tsx': [/^RW$/],
+  'components/description-objects.tsx': [/^PDO$/],
+  'text/help.ts': [/^descriptions$/],
   // Words of a recipe's JSON, by which its steps are told apart; the label beside each is said through t().
   'text/recipe.ts': [/^(enable|disable|home|command|set_parameter|read_parameter|action|write_register|simulate|wait_for|check|wait_s|if|repeat|message)$/],
   // Keys of lists and choices.

@@ -12,20 +12,22 @@ import { rich, t } from './language';
 import { titleOf } from './text/title';
 
 // The overview and the sign-in are what a visit begins with; every other page has a bundle of its own.
-const AxisPage = later(() => import('./pages/axis').then((m) => m.AxisPage), 'page');
-const LinesPage = later(() => import('./pages/lines').then((m) => m.LinesPage), 'page');
-const LinePage = later(() => import('./pages/lines').then((m) => m.LinePage), 'page');
-const RecipesPage = later(() => import('./pages/recipes').then((m) => m.RecipesPage), 'page');
-const RecipePage = later(() => import('./pages/recipe').then((m) => m.RecipePage), 'page');
-const RecorderPage = later(() => import('./pages/recorder').then((m) => m.RecorderPage), 'page');
-const EventsPage = later(() => import('./pages/events').then((m) => m.EventsPage), 'page');
-const GatewayPage = later(() => import('./pages/gateway').then((m) => m.GatewayPage), 'page');
-const ReportPage = later(() => import('./pages/report').then((m) => m.ReportPage), 'page');
-const FleetPage = later(() => import('./pages/fleet').then((m) => m.FleetPage), 'page');
-const MappingsPage = later(() => import('./pages/mappings').then((m) => m.MappingsPage), 'page');
-const ParametersPage = later(() => import('./pages/parameters').then((m) => m.ParametersPage), 'page');
-const SitePage = later(() => import('./pages/site').then((m) => m.SitePage), 'page');
-const UsersPage = later(() => import('./pages/users').then((m) => m.UsersPage), 'page');
+const AxisPage = later(() => import('./pages/axis').then((m) => m.AxisPage));
+const LinesPage = later(() => import('./pages/lines').then((m) => m.LinesPage));
+const LinePage = later(() => import('./pages/lines').then((m) => m.LinePage));
+const RecipesPage = later(() => import('./pages/recipes').then((m) => m.RecipesPage));
+const RecipePage = later(() => import('./pages/recipe').then((m) => m.RecipePage));
+const RecorderPage = later(() => import('./pages/recorder').then((m) => m.RecorderPage));
+const EventsPage = later(() => import('./pages/events').then((m) => m.EventsPage));
+const GatewayPage = later(() => import('./pages/gateway').then((m) => m.GatewayPage));
+const ReportPage = later(() => import('./pages/report').then((m) => m.ReportPage));
+const FleetPage = later(() => import('./pages/fleet').then((m) => m.FleetPage));
+const MappingsPage = later(() => import('./pages/mappings').then((m) => m.MappingsPage));
+const ParametersPage = later(() => import('./pages/parameters').then((m) => m.ParametersPage));
+const SitePage = later(() => import('./pages/site').then((m) => m.SitePage));
+const DescriptionsPage = later(() => import('./pages/descriptions').then((m) => m.DescriptionsPage));
+const DescriptionPage = later(() => import('./pages/description').then((m) => m.DescriptionPage));
+const UsersPage = later(() => import('./pages/users').then((m) => m.UsersPage));
 
 export function App() {
   const title = titleOf(route.value);
@@ -84,6 +86,8 @@ function Page() {
     case 'mappings': return <MappingsPage />;
     case 'parameters': return <ParametersPage key={r.name} name={r.name} />;
     case 'site': return <SitePage />;
+    case 'descriptions': return <DescriptionsPage />;
+    case 'description': return <DescriptionPage key={r.name} name={r.name} other={r.other} />;
     case 'users': return <UsersPage />;
     case 'sign-in': return <SignInPage />;
     case 'unknown':

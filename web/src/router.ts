@@ -17,6 +17,8 @@ export type Route =
   | { page: 'mappings' }
   | { page: 'parameters'; name: string }
   | { page: 'site' }
+  | { page: 'descriptions' }
+  | { page: 'description'; name: string; other?: string }
   | { page: 'users' }
   | { page: 'sign-in' }
   | { page: 'unknown'; path: string };
@@ -32,7 +34,7 @@ export const recorderTabs = ['trends', 'captures', 'recordings'] as const;
 export type RecorderTab = (typeof recorderTabs)[number];
 
 /** Pages without a name. */
-const plain = ['lines', 'mappings', 'recipes', 'site', 'events', 'gateway', 'report', 'fleet', 'users', 'sign-in'] as const;
+const plain = ['lines', 'mappings', 'recipes', 'site', 'descriptions', 'events', 'gateway', 'report', 'fleet', 'users', 'sign-in'] as const;
 const isPlain = (s: string): s is (typeof plain)[number] => (plain as readonly string[]).includes(s);
 
 export function routeOf(path: string): Route {
@@ -43,7 +45,9 @@ export function routeOf(path: string): Route {
     if (first === 'axes') return { page: 'axis', name: second, tab: 'move' };
     if (first === 'lines') return { page: 'line', name: second };
     if (first === 'recipes') return { page: 'recipe', name: second };
+    if (first === 'descriptions') return { page: 'description', name: second };
   }
+  if (first === 'descriptions' && second !== undefined && rest.length === 1) return { page: 'description', name: second, other: rest[0] as string };
   const at_line = Number(rest[0]);
   if (first === 'lines' && second !== undefined && rest.length === 1 && Number.isSafeInteger(at_line) && at_line > 0) return { page: 'line', name: second, at_ms: at_line };
   if (first === 'axes' && second !== undefined && rest.length === 1 && rest[0] === 'parameters') return { page: 'parameters', name: second };
@@ -70,6 +74,9 @@ export const framesPath = (line: string, at_ms: number): string => `/lines/${enc
 
 export const recorderPath = (tab: RecorderTab, axis?: string, at_ms?: number): string =>
   `/recorder/${tab}${axis === undefined ? '' : `/${encodeURIComponent(axis)}`}${at_ms === undefined ? '/' : `/${Math.round(at_ms)}`}`;
+
+/** A description, perhaps beside another one. */
+export const descriptionPath = (name: string, other?: string): string => (other === undefined ? pathOf('descriptions', name) : `/descriptions/${encodeURIComponent(name)}/${encodeURIComponent(other)}/`);
 
 export const recipePath = (name: string): string => pathOf('recipes', name);
 

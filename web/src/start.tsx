@@ -21,6 +21,7 @@ import './styles/mappings.css';
 import './styles/register-map.css';
 import './styles/parameters.css';
 import './styles/site.css';
+import './styles/descriptions.css';
 import './styles/recipes.css';
 import './styles/alarms.css';
 import './styles/users.css';

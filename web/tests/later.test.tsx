@@ -21,7 +21,7 @@ afterEach(() => {
   root.remove();
 });
 
-function shown(shape: 'page' | 'part') {
+function shown() {
   let come: (there: boolean) => void = () => undefined;
   let asked = 0;
   const Page = () => (
@@ -32,14 +32,14 @@ function shown(shape: 'page' | 'part') {
   const Later = later(() => {
     asked += 1;
     return new Promise<typeof Page>((resolve, reject) => (come = (there) => (there ? resolve(Page) : reject(new TypeError('Failed to fetch')))));
-  }, shape);
+  });
   render(<GatewayProvider value={gateway}>{<Later />}</GatewayProvider>, root);
   return { come: (there: boolean) => come(there), asked: () => asked, text: () => root.textContent ?? '' };
 }
 
 it('shows that something comes, then the page, which gets the keyboard when a link has led here', async () => {
   go('/mappings');
-  const p = shown('page');
+  const p = shown();
   expect(root.querySelector('main')?.getAttribute('aria-busy')).toBe('true');
   expect(root.querySelector('h1')).toBeNull();
   await vi.waitFor(() => expect(p.asked()).toBe(1));
@@ -50,7 +50,7 @@ it('shows that something comes, then the page, which gets the keyboard when a li
 
 it('says why it has not come, under the title of the page; tries again when it is asked to, and when the gateway is back', async () => {
   go('/mappings');
-  const p = shown('page');
+  const p = shown();
   await vi.waitFor(() => expect(p.asked()).toBe(1));
   p.come(false);
   await vi.waitFor(() => expect(p.text()).toContain('the gateway cannot be reached'));
@@ -63,13 +63,4 @@ it('says why it has not come, under the title of the page; tries again when it i
   await vi.waitFor(() => expect(p.asked()).toBe(3));
   p.come(true);
   await vi.waitFor(() => expect(p.text()).toBe('Mappings'));
-});
-
-it('is no page of its own where it is a part of one', async () => {
-  const p = shown('part');
-  expect(root.querySelector('main')).toBeNull();
-  await vi.waitFor(() => expect(p.asked()).toBe(1));
-  p.come(false);
-  await vi.waitFor(() => expect(p.text()).toContain('the gateway cannot be reached'));
-  expect(root.querySelector('main')).toBeNull();
 });

@@ -60,6 +60,15 @@ std::vector<Fault> faults_of(const Read& read) {
 namespace {
 json::value number_or_null(const std::optional<std::uint32_t>& n) { return n ? json::value(*n) : json::value(); }
 
+/// DeviceComissioning of a DCF.
+json::value commissioning_of(const Eds& eds) {
+    if (!eds.commissioning) return nullptr;
+    const auto& c = *eds.commissioning;
+    return json::object{{"node", c.node == 0 ? json::value() : json::value(c.node)},
+                        {"node_name", text_or_null(c.node_name)},
+                        {"bit_rate_kbit", c.kbit == 0 ? json::value() : json::value(c.kbit)}};
+}
+
 std::optional<std::int64_t> configured(const Eds& eds, Address a) {
     const auto it = eds.entries.find(a);
     if (it == eds.entries.end()) return std::nullopt;
@@ -114,6 +123,7 @@ std::shared_ptr<const json::object> facts(const Description& d, const Read& read
                                                              {"bit_rates_kbit", std::move(kbits)},
                                                              {"objects", eds.objects.size()},
                                                              {"entries", eds.entries.size()},
+                                                             {"commissioning", commissioning_of(eds)},
                                                              {"pdos", pdos(eds)},
                                                              {"warnings", std::move(warnings)}});
 }

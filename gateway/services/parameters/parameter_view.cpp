@@ -23,6 +23,16 @@ KnownValue known_value_of(const ParameterPort& parameters, AxisId axis) {
     return [&parameters, axis](Point p) { return parameters.live(axis, p).value; };
 }
 
+/// Values that the DCF of the drive gives to its parameters, by id. They refer to the catalogue.
+std::unordered_map<std::string_view, const json::value*> configured_of(const Catalogue& catalogue) {
+    std::unordered_map<std::string_view, const json::value*> out;
+    const auto* list = catalogue.document().if_contains("configured");
+    if (!list) return out;
+    for (const auto& v : list->as_array())
+        out.emplace(v.at("parameter").as_string(), &v.at("value"));
+    return out;
+}
+
 json::object document_now(const ParameterPort& parameters, const AxisPlace& axis, Point point, std::string_view id,
                           const LiveParameter& live, const StoredParameter* stored, std::string_view text) {
     json::object o = axis_parameter_document(*axis.catalogue, point, id, live, stored, text);
@@ -72,13 +82,15 @@ Refusable<json::array> parameter_list(const ParameterPort& parameters, const Axi
     std::unordered_map<std::string_view, const StoredParameter*> by_id;
     for (const auto& s : stored)
         by_id.emplace(s.parameter, &s);
+    const auto configured = configured_of(catalogue);
     const auto put = [&](std::uint16_t index, std::uint32_t element) {
         const Point point{index, static_cast<std::uint16_t>(element)};
         if (!catalogue.parameter(point)) return;
         const std::string id = catalogue.id_of(point);
         const auto it = by_id.find(id);
-        out.push_back(
-            document_now(parameters, axis, point, id, parameters.live(axis.id(), point), it == by_id.end() ? nullptr : it->second, ""));
+        auto o = document_now(parameters, axis, point, id, parameters.live(axis.id(), point), it == by_id.end() ? nullptr : it->second, "");
+        if (const auto c = configured.find(id); c != configured.end()) o["configured"] = *c->second;
+        out.push_back(std::move(o));
     };
     bool array_found = false;
     const auto all = catalogue.parameters();
@@ -113,6 +125,8 @@ json::object parameter_now(const ParameterPort& parameters, const ParameterPlace
     const std::string& axis = place.axis.spec().name;
     const auto stored = parameters.stored(axis);
     json::object o = document_now(parameters, place.axis, place.point, place.id, live, stored_of(stored, place.id), text);
+    const auto configured = configured_of(*place.axis.catalogue);
+    if (const auto c = configured.find(place.id); c != configured.end()) o["configured"] = *c->second;
     if (history <= 0) return o;
     json::array list;
     for (const auto& h : parameters.history(axis, place.id, static_cast<std::size_t>(history))) {

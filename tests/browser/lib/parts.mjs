@@ -1,5 +1,6 @@
 // Parts: every part of the page, once, for the tests that walk through all of them; and a gateway in which none of them is empty.
 // In: a program. Out: addresses, and what tells that a part is drawn.
+import { readFileSync } from 'node:fs';
 import { quiet } from './browser.mjs';
 
 /** `ready`: a selector that is there when the part has got its documents. */
@@ -15,6 +16,8 @@ export const parts = [
   { name: 'line', path: '/lines/can0', title: 'can0', ready: '.frame-list li' },
   { name: 'mappings', path: '/mappings', title: 'Mappings', ready: '[data-mapping]' },
   { name: 'site', path: '/site', title: 'Site', ready: '.site-history .fold, [data-revision]' },
+  { name: 'descriptions', path: '/descriptions', title: 'Descriptions of drives', ready: '[data-description="example.dcf"]' },
+  { name: 'description', path: '/descriptions/example.dcf/', title: 'example.dcf', ready: 'tr[data-object]' },
   { name: 'recipes', path: '/recipes', title: 'Recipes', ready: '[data-recipe]' },
   { name: 'recipe', path: '/recipes/there-and-back', title: 'there-and-back', ready: '[data-report]' },
   { name: 'events', path: '/events', title: 'Events and alarms', ready: '[data-alarm]' },
@@ -50,7 +53,7 @@ export async function arrived(page, part) {
   await quiet(page);
 }
 
-/** Mappings, a recipe with a run, a snapshot, an earlier site, a written parameter, a standing alarm. */
+/** A description, mappings, a recipe with a run, a snapshot, an earlier site, a written parameter, a standing alarm. */
 export async function furnish(program) {
   const must = async (method, path, body, good = [200, 201, 202, 204]) => {
     const r = await program.call(method, path, body);
@@ -58,6 +61,7 @@ export async function furnish(program) {
     return r.body;
   };
   const mapping = { unit: 2, table: 'holding_registers', axis: 'feeder', access: 'R' };
+  await must('POST', '/descriptions', { name: 'example.dcf', text: readFileSync(new URL('../../../adapters/cia402/tests/eds/by_tool.dcf', import.meta.url), 'latin1') });
   await must('POST', '/mappings', { ...mapping, id: 'm1', address: 0, point: 'position_units', type: 'f32', comment: 'shown on the panel' });
   await must('POST', '/mappings', { ...mapping, id: 'm2', address: 4, point: 'velocity', type: 'i32', axis: 'slide.x' });
   await must('PATCH', '/axes/slide.x', { velocity_max: 360 });

@@ -12,7 +12,7 @@ const places: { path: string; text: string; icon: IconName; pages: Route['page']
   { path: '/', text: t('Axes'), icon: 'axis', pages: ['overview', 'axis', 'parameters'] },
   { path: '/lines', text: t('Lines'), icon: 'lines', pages: ['lines', 'line'] },
   { path: '/mappings', text: t('Mappings'), icon: 'table', pages: ['mappings'] },
-  { path: '/site', text: t('Site'), icon: 'site', pages: ['site'] },
+  { path: '/site', text: t('Site'), icon: 'site', pages: ['site', 'descriptions', 'description'] },
   { path: '/recipes', text: t('Recipes'), icon: 'play', pages: ['recipes', 'recipe'] },
   { path: '/recorder', text: t('Recorder'), icon: 'clock', pages: ['recorder'] },
   { path: '/events', text: t('Events'), icon: 'list', pages: ['events'] },

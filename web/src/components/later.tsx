@@ -1,5 +1,5 @@
-// Later: a page, or a heavy part of one, whose code is fetched when it is shown for the first time. In: how it is fetched. Out: a component that shows
-// where the part will be, then the part; if the code cannot be fetched, why, and a button that tries again. It tries by itself when the gateway is back.
+// Later: a page whose code is fetched when the page is shown for the first time. In: how it is fetched. Out: a component that shows where the page will
+// be, then the page; if the code cannot be fetched, why, and a button that tries again. It tries by itself when the gateway is back.
 import type { ComponentType } from 'preact';
 import { useEffect, useLayoutEffect } from 'preact/hooks';
 import { useGateway } from '../gateway';
@@ -8,9 +8,7 @@ import { focusHeading, route } from '../router';
 import { Code } from '../state/code';
 import { titleOf } from '../text/title';
 
-type Shape = 'page' | 'part';
-
-export function later<P extends object>(fetch: () => Promise<ComponentType<P>>, shape: Shape = 'part'): ComponentType<P> {
+export function later<P extends object>(fetch: () => Promise<ComponentType<P>>): ComponentType<P> {
   const code = new Code(fetch);
   return function Later(props: P) {
     const { store } = useGateway();
@@ -19,18 +17,16 @@ export function later<P extends object>(fetch: () => Promise<ComponentType<P>>, 
     // Also when the connection is another one: what was missing because the gateway was away is there now.
     useEffect(() => void code.want(), [phase === 'live' ? epoch : 0]);
     useLayoutEffect(() => {
-      if (shape === 'page' && state.at !== 'waiting') focusHeading();
+      if (state.at !== 'waiting') focusHeading();
     }, [state.at]);
     if (state.at === 'there') {
       const Part = state.part;
       return <Part {...props} />;
     }
-    const inside = state.at === 'waiting' ? <Waiting /> : <Missing why={state.why} again={() => void code.want()} />;
-    if (shape === 'part') return <div class="later">{inside}</div>;
     return (
       <main class="page later" aria-busy={state.at === 'waiting'}>
         {state.at === 'missing' && <h1 tabIndex={-1}>{titleOf(route.value)}</h1>}
-        {inside}
+        {state.at === 'waiting' ? <Waiting /> : <Missing why={state.why} again={() => void code.want()} />}
       </main>
     );
   };

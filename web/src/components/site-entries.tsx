@@ -9,6 +9,7 @@ import type { SiteDraft } from '../state/site-draft';
 import { portKind } from '../text/ports';
 import { checkEntry, fieldsOf, freeNumber, textsOfEntry, uriKinds, type Entry, type FieldSpec, type Room, type Site, type Texts } from '../text/site';
 import { Choice, Switch, TextField } from './form';
+import { BootTexts, DescriptionChoice } from './drive-description';
 import { Increments } from './increments';
 import { OptionFields } from './option-fields';
 import { PortChoice } from './port-choice';
@@ -81,6 +82,7 @@ export function EntryForm({ room, draft, own, open, gateway }: FormProps) {
       }}
     >
       <div class="form-grid">{fieldsOf[room].filter((f) => !f.more).map(field)}</div>
+      {room === 'drives' && <BootTexts texts={texts} options={options} />}
       {room !== 'axes' && <OptionFields room={room} family={family} specs={options} texts={texts} onText={set} fault={(key) => gateway.find((g) => g.key === key)?.text} />}
       {more.length > 0 && (
         <details open={(moreOpen.current ||= more.some((f) => fault(f) !== undefined)) || undefined}>
@@ -118,6 +120,7 @@ export function EntryField({ f, site, texts, fault, onText }: FieldProps) {
     case 'line': return <Choice {...common} value={text} onChoice={onText} choices={names(site.lines)} />;
     case 'drive': return <Choice {...common} value={text} onChoice={onText} choices={names(site.drives)} />;
     case 'family': return <Choice {...common} class="wide" value={text} onChoice={onText} choices={[{ value: '', text: t('choose') }, ...(store.about.value?.families ?? []).map((n) => ({ ...gatewayText, value: n, text: store.familyTitles.value.get(n) ? `${store.familyTitles.value.get(n)} (${n})` : n }))]} />;
+    case 'description': return <DescriptionChoice label={f.label} hint={f.hint} fault={fault} family={store.families.value.get(familyOf('drives', texts, site))} value={text} onText={onText} />;
     case 'switch': return <Switch {...common} on={text === 'true'} onSwitch={(on) => onText(on ? 'true' : '')} />;
     case 'choice': return <Choice {...common} value={text} onChoice={onText} choices={f.choices ?? []} />;
     default: {

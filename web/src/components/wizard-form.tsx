@@ -2,11 +2,13 @@
 // the draft. What is typed is kept over a reload.
 import { useSignal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
+import { useGateway } from '../gateway';
 import { t } from '../language';
 import type { SiteDraft } from '../state/site-draft';
-import { chosen, choose, fieldsOfStep, keepTyped, textsOf } from '../state/site-wizard';
+import { chosen, choose, chosenDescription, fieldsOfStep, keepTyped, textsOf } from '../state/site-wizard';
 import { lineNameFor } from '../text/ports';
 import { checkEntry, withEntry, type Room, type Texts } from '../text/site';
+import { DriveOfFile } from './drive-description';
 import { EntryField } from './site-entries';
 
 const kinds = [
@@ -25,13 +27,16 @@ export function StepForm({ room, draft, back, next }: { room: Room; draft: SiteD
   const list = site[room] ?? [];
   // A drive of the chosen line, an axis of the chosen drive.
   const fitting = list.filter((e) => (room === 'lines' ? true : room === 'drives' ? e.line === chosen.lines.value : e.drive === chosen.drives.value));
-  const use = useSignal(fitting.some((e) => e.name === chosen[room].peek()) ? chosen[room].peek() : (fitting[0]?.name ?? ''));
-  const texts = useSignal<Texts>(textsOf(room, draft));
+  // A drive that is to be made of a file is a new one.
+  const asNew = room === 'drives' && chosenDescription() !== null;
+  const use = useSignal(asNew ? '' : fitting.some((e) => e.name === chosen[room].peek()) ? chosen[room].peek() : (fitting[0]?.name ?? ''));
+  const { store } = useGateway();
+  const texts = useSignal<Texts>(textsOf(room, draft, store.families.value));
   const touched = useSignal(false);
   const form = useRef<HTMLFormElement>(null);
   useEffect(() => {
     // What a scan added is chosen.
-    if (use.peek() === '' && fitting.length > 0 && room === 'drives' && !touched.peek()) use.value = fitting[0]!.name;
+    if (use.peek() === '' && fitting.length > 0 && room === 'drives' && !touched.peek() && !asNew) use.value = fitting[0]!.name;
   }, [fitting.length]);
   const { entry, faults } = checkEntry(room, texts.value, site, null);
   const set = (key: string) => (text: string) => {
@@ -90,10 +95,20 @@ export function StepForm({ room, draft, back, next }: { room: Room; draft: SiteD
       )}
       {use.value === '' && (
         <div class="form-grid">
-          {fieldsOfStep(room).map((f) => (
+          {fieldsOfStep(room, texts.value).map((f) => (
             <EntryField key={f.key} f={f} site={site} texts={texts.value} onText={set(f.key)} fault={touched.value || (texts.value[f.key] ?? '') !== '' ? faults[f.key] : undefined} />
           ))}
         </div>
+      )}
+      {use.value === '' && room === 'drives' && (
+        <DriveOfFile
+          line={(site.lines ?? []).find((l) => l.name === chosen.lines.value)}
+          site={site}
+          onTexts={(made) => {
+            texts.value = { ...texts.peek(), ...made };
+            keepTyped(room, texts.peek());
+          }}
+        />
       )}
       {use.value === '' && touched.value && (faults.line || faults.drive) && <p class="form-told is-fault">{faults.line ?? faults.drive}</p>}
       <div class="form-foot">

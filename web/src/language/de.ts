@@ -2,6 +2,7 @@
 // In: the parts. Out: the table, which is loaded only when the language is chosen.
 import { assembly } from './de/assembly';
 import { axis } from './de/axis';
+import { description } from './de/description';
 import { events } from './de/events';
 import { frame } from './de/frame';
 import { mapping } from './de/mapping';
@@ -13,4 +14,4 @@ import { site } from './de/site';
 import { text } from './de/text';
 import type { Table } from './index';
 
-export const table: Table = { ...assembly, ...axis, ...events, ...frame, ...mapping, ...parameter, ...recipe, ...recorder, ...report, ...site, ...text };
+export const table: Table = { ...assembly, ...axis, ...description, ...events, ...frame, ...mapping, ...parameter, ...recipe, ...recorder, ...report, ...site, ...text };

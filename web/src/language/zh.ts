@@ -2,6 +2,7 @@
 // In: the parts. Out: the table, which is loaded only when the language is chosen.
 import { assembly } from './zh/assembly';
 import { axis } from './zh/axis';
+import { description } from './zh/description';
 import { events } from './zh/events';
 import { frame } from './zh/frame';
 import { mapping } from './zh/mapping';
@@ -13,4 +14,4 @@ import { site } from './zh/site';
 import { text } from './zh/text';
 import type { Table } from './index';
 
-export const table: Table = { ...assembly, ...axis, ...events, ...frame, ...mapping, ...parameter, ...recipe, ...recorder, ...report, ...site, ...text };
+export const table: Table = { ...assembly, ...axis, ...description, ...events, ...frame, ...mapping, ...parameter, ...recipe, ...recorder, ...report, ...site, ...text };

@@ -16,9 +16,9 @@ import { EventList } from '../components/events';
 import { DriveCompare } from '../components/drive-comparison';
 import { Hand } from '../components/hand';
 import { Empty } from '../components/lines';
-import { later } from '../components/later';
 import { memo } from '../components/memo';
 import { Mark } from '../components/pill';
+import { Scope } from '../components/scope';
 import { Section } from '../components/section';
 import { Specimen } from '../components/specimen';
 import { StateMachine } from '../components/state-machine';
@@ -29,7 +29,6 @@ import { commandedText } from '../text/authority';
 import { markOf, unitOf } from '../text/axis';
 import { headingOf } from '../text/title';
 
-const Scope = later(() => import('../components/scope').then((m) => m.Scope));
 const Controls = memo(FullControls, (a, b) => a.axis.name === b.axis.name && a.axis.unit === b.axis.unit);
 
 export function AxisPage({ name, tab }: { name: string; tab: AxisTab }) {

@@ -5,6 +5,7 @@ import type { Snapshot } from '../api/snapshots';
 import { AxisTabs } from '../components/axis-tabs';
 import { Empty } from '../components/lines';
 import { ParameterCompare } from '../components/parameter-compare';
+import { ParameterConfigured } from '../components/parameter-configured';
 import { ParameterTransfer } from '../components/parameter-transfer';
 import { Parameters } from '../components/parameters';
 import { Mark } from '../components/pill';
@@ -42,6 +43,7 @@ export function ParametersPage({ name }: { name: string }) {
       ) : (
         <>
           <Parameters axis={name} />
+          <ParameterConfigured key={`${name} ${axis.drive}`} axis={axis} />
           <Snapshots axis={name} family={axis.family} onList={(list) => (snapshots.value = list)} />
           <ParameterCompare axis={name} family={axis.family} snapshots={snapshots.value} />
           <ParameterTransfer axis={name} />

@@ -56,6 +56,9 @@ export function SitePage() {
     <main class="page site-page">
       <div class="site-head">
         <h1 tabIndex={-1}>{t('Site')}</h1>
+        <a class="button quiet" href="/descriptions">
+          {t('Descriptions of drives')}
+        </a>
         {!guided && draft.state.value === 'there' && (
           <button type="button" class="button" {...barred(session.mayNot('engineer'))} onClick={() => (wizard.value = 'open')}>
             {t('Wizard: to a moving axis')}

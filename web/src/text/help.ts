@@ -17,6 +17,8 @@ const chapters: Record<Route['page'], string> = {
   mappings: 'map',
   parameters: 'parameters',
   site: 'changing-a-site',
+  descriptions: 'descriptions',
+  description: 'descriptions',
   users: 'access',
   'sign-in': 'access',
   unknown: '',

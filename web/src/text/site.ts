@@ -23,7 +23,7 @@ export interface FieldSpec {
   /** Where it stands in the entry; "timing.retries" in an object of it. */
   key: string;
   label: string;
-  kind: 'name' | 'text' | 'integer' | 'number' | 'choice' | 'switch' | 'line' | 'drive' | 'family' | 'address';
+  kind: 'name' | 'text' | 'integer' | 'number' | 'choice' | 'switch' | 'line' | 'drive' | 'family' | 'address' | 'description';
   required?: boolean;
   min?: number;
   max?: number;
@@ -67,6 +67,7 @@ export const fieldsOf: Record<Room, readonly FieldSpec[]> = {
     { key: 'line', label: t('Line'), kind: 'line', required: true, hint: t('that it hangs on') },
     { key: 'family', label: t('Family'), kind: 'family', hint: t('empty: the line’s; several can share a CAN line'), more: true },
     { key: 'address', label: t('Address'), kind: 'address', hint: t('empty: the factory address') },
+    { key: 'description', label: t('Description'), kind: 'description', hint: t('the maker’s EDS or DCF, whose objects become the parameters of the axis; none: the objects of the standard') },
     { key: 'presence', label: t('Presence'), kind: 'choice', choices: presences, hint: t('who serves its axes: the drive if it answers and else its model (auto), the drive alone (device), the model alone (twin); on a line dds the drive is the other gateway’s axis') },
   ],
   axes: [
@@ -88,7 +89,7 @@ export const fieldsOf: Record<Room, readonly FieldSpec[]> = {
       label: t('Stored parameters'),
       kind: 'choice',
       more: true,
-      hint: t('when the drive answers: compared with what was written through the gateway, or written where they differ'),
+      hint: t('when the drive answers: compared with what was written through the gateway, and with the values of its DCF; or written where they differ'),
       choices: [{ value: '', text: t('not looked at') }, { value: 'compare', text: t('compared') }, { value: 'write', text: t('compared and written') }],
     },
     { key: 'trend_on_disk', label: t('Trends on the disk'), kind: 'switch', more: true, hint: t('they outlive a restart of the gateway') },

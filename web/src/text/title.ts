@@ -8,6 +8,7 @@ const titles = {
   mappings: t('Mappings'),
   recipes: t('Recipes'),
   site: t('Site'),
+  descriptions: t('Descriptions of drives'),
   events: t('Events'),
   recorder: t('Recorder'),
   gateway: t('Gateway'),
@@ -33,6 +34,7 @@ export function titleOf(r: Route): string {
     case 'parameters': return t('Parameters of {name}', { name: r.name });
     case 'axis': return headingOf(r.name, r.tab);
     case 'line':
+    case 'description':
     case 'recipe': return r.name;
     default: return titles[r.page];
   }

@@ -382,7 +382,6 @@ export const site: Table = {
   'What waits in your draft': 'Was im eigenen Entwurf wartet',
   'What was changed': 'Was geändert wurde',
   'What you typed is kept.': 'Das Eingegebene bleibt erhalten.',
-  'when the drive answers: compared with what was written through the gateway, or written where they differ': 'wenn der Antrieb antwortet: verglichen mit dem, was über das Gateway geschrieben wurde, oder geschrieben, wo sie abweichen',
   'Where is the line?': 'Wo ist die Linie?',
   'where the line is: {forms}; “twin”: embedded drives alone; “dds”: axes of other gateways (family remote)': 'wo die Linie ist: {forms}; „twin“: nur eingebaute Antriebe; „dds“: Achsen anderer Gateways (Familie remote)',
   'which axis of the drive; most drives have one': 'welche Achse des Antriebs; die meisten Antriebe haben eine',

@@ -382,7 +382,6 @@ export const site: Table = {
   'What waits in your draft': '您草稿中等待的内容',
   'What was changed': '已更改的内容',
   'What you typed is kept.': '您输入的内容已保留。',
-  'when the drive answers: compared with what was written through the gateway, or written where they differ': '驱动器应答时：与通过网关写入的值比较，或在不一致处写入',
   'Where is the line?': '线路在哪里？',
   'where the line is: {forms}; “twin”: embedded drives alone; “dds”: axes of other gateways (family remote)': '线路所在：{forms}；“twin”：仅内置驱动器；“dds”：其他网关的轴（系列 remote）',
   'which axis of the drive; most drives have one': '驱动器的第几个轴；多数驱动器只有一个',

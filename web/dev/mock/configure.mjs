@@ -67,6 +67,7 @@ export class Configuration {
       if (ask.method === 'PATCH') Object.assign(this.modbus, JSON.parse(ask.text));
       return { body: this.modbus };
     }
+    if (kind === 'descriptions' && !name && ask.method === 'GET') return { body: [] };
     if (kind === 'registers') return { body: this.registers(ask.q) };
     if (kind === 'site') return this.site.answer(ask);
     if (kind === 'backup') return this.backup(ask);

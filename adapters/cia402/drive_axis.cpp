@@ -268,6 +268,12 @@ bool Axis::still_waits(Job& job, const Step& s, const canopen::SdoEnd& end, Turn
     job.wait_until = t.now + std::chrono::milliseconds(10);
     if (t.now < job.give_up) return true;
     if (s.optional) return false;
+    if (s.awaits == Step::Awaits::mode && !std::exchange(job.mode_again, true)) {  // some drives drop the order silently while they move
+        job.give_up = never;
+        job.wait_until = {};
+        --job.at;  // the write of 6060h
+        return true;
+    }
     if (s.awaits == Step::Awaits::acknowledge && has_begun(known, job)) {
         known.no_acknowledge = true;
         return unacknowledged(job), false;

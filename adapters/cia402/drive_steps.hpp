@@ -58,6 +58,7 @@ struct Job {
     std::vector<std::uint8_t> data;
     bool released = false;          ///< the drive has shown that it has seen bit 4 at 0
     bool begun = false;             ///< homing was seen in progress
+    bool mode_again = false;        ///< the mode was ordered a second time
     bool planned_anew = false;      ///< the drive was in another state than its last report said
     bool turned = false;            ///< the axis was already moving when the set-point was sent
     std::uint16_t status = 0;       ///< status word before homing

@@ -47,6 +47,7 @@ void leave_halt(const Node& node, const AxisKnown& known, Job& job) {
             break;
     }
     job.word_seen(on_word);
+    job.until_standstill(std::chrono::seconds(1));  // the place is the actual one, which a loaded axis reaches with a small step
 }
 
 /// A drive carries out the next set-point in the mode that it shows: a set-point for a mode that is not in force yet is lost.

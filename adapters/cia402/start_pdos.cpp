@@ -138,8 +138,10 @@ void PdoSetUp::plan_writes(std::uint32_t id_word) {
 void PdoSetUp::refused(const canopen::SdoEnd& end, Turn& t) {
     const Wanted& w = wanted_[at_];
     if (leave_out(end)) return begin_pdo();
+    // A report with a SYNC count of its own is one; a target takes effect by any type, at the SYNC or at once.
     const std::uint8_t kept = reader_->pdo().settings.transmission;
-    if (w.own && writes_[written_].address.sub == 2 && kept >= 1 && kept <= 240) return void(++written_);  // a SYNC count of its own
+    const bool is_type = writes_[written_].address == Address{canopen::settings_index(w.pdo.direction, w.pdo.number), 2};
+    if (is_type && (w.target || (w.own && kept >= 1 && kept <= 240))) return void(++written_);
     if (tried_ || is_final(end.abort) || (w.target && end.abort != canopen::Abort::device_state)) {
         if (!w.own && allows(drive_.node, PdoPlan::file)) return use_own();
         return go_without();

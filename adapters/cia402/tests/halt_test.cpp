@@ -8,9 +8,12 @@ namespace axisgate::cia402_drive::test {
 namespace {
 
 struct Halted : Manners {
-    double stood = 0;  ///< where the axis stands under the halt
+    double stood = 0;    ///< where the axis stands under the halt
+    bool loose = false;  ///< friction keeps the shaft an increment from its target
+    [[nodiscard]] double looseness() const { return loose ? 2 : 0; }
 
-    explicit Halted(const Options& of_twin, Options of_drive = {}) : Manners(of_twin, std::move(of_drive)) {
+    explicit Halted(const Options& of_twin, Options of_drive = {})
+        : Manners(of_twin, std::move(of_drive)), loose(of_twin.contains("friction_increments")) {
         run(2s);
         EXPECT_TRUE(enable());
     }
@@ -52,13 +55,16 @@ const Options manners[] = {{},
                            {{"mode_refusal", "3"}},
                            {{"mode_refusal", "3"}, {"mode_shown_ms", "300"}},
                            {{"mode_refusal", "3"}, {"control_sample_ms", "10"}},
-                           {{"mode_refusal", "3"}, {"acknowledge_ms", "100"}}};
+                           {{"mode_refusal", "3"}, {"acknowledge_ms", "100"}},
+                           {{"mode_refusal", "2"}, {"mode_refusal_silent", "1"}},
+                           {{"mode_refusal", "3"}, {"mode_refusal_silent", "1"}, {"friction_increments", "1"}, {"damping_percent", "60"}}};
 constexpr std::pair<const char*, void (*)(Halted&)> motions[] = {
     {"move", begin_move}, {"velocity", begin_velocity}, {"stream", begin_stream}, {"homing", begin_homing}};
 
 TEST(Cia402Halt, AnOrderOfAnotherModeIsTakenAndTheInterruptedMotionIsNotContinued) {
     for (const Options& of_twin : manners)
         for (const auto& [name, begin] : motions) {
+            if (of_twin.contains("friction_increments") && begin != begin_stream) continue;  // what it is about
             SCOPED_TRACE(std::string(name) + told(of_twin));
             Halted b(of_twin);
             begin(b);
@@ -71,7 +77,7 @@ TEST(Cia402Halt, AnOrderOfAnotherModeIsTakenAndTheInterruptedMotionIsNotContinue
             const auto to = static_cast<std::int64_t>(b.axis.position) + 3'000;
             ASSERT_TRUE(good(b.ask(LineBench::to(to))));
             b.run(5s);
-            EXPECT_EQ(b.axis.position, to);
+            EXPECT_NEAR(static_cast<double>(b.axis.position), static_cast<double>(to), b.looseness());
             EXPECT_FALSE(b.axis.moving);
             begin(b);
             b.halt();
@@ -88,6 +94,7 @@ TEST(Cia402Halt, AnEnableReleasesTheHaltAndMovesNothing) {
     for (const Options& of_twin : manners)
         for (const auto& [name, begin] : motions)
             for (const bool restarted : {false, true}) {
+                if (of_twin.contains("friction_increments") && begin != begin_stream) continue;
                 SCOPED_TRACE(std::string(name) + told(of_twin) + (restarted ? ", restarted" : ""));
                 Halted b(of_twin);
                 begin(b);
@@ -105,7 +112,7 @@ TEST(Cia402Halt, AnEnableReleasesTheHaltAndMovesNothing) {
                 const auto to = static_cast<std::int64_t>(b.axis.position) + 3'000;
                 ASSERT_TRUE(good(b.ask(LineBench::to(to))));
                 b.run(5s);
-                EXPECT_EQ(b.axis.position, to);
+                EXPECT_NEAR(static_cast<double>(b.axis.position), static_cast<double>(to), b.looseness());
             }
 }
 

@@ -150,6 +150,16 @@ TEST(Cia402PdoPlan, FixedPdosThatComeByEventAreNoReports) {
     b.expect_moves();
 }
 
+TEST(Cia402PdoPlan, TargetsOfAFixedTypeTakeEffectAtOnce) {
+    for (const char* setup : {"0", "2", "3"}) {
+        SCOPED_TRACE(setup);
+        Planned b({{"pdo_types_fixed", "1"}, {"pdo_setup", setup}});
+        b.expect_pdos({});
+        ASSERT_TRUE(b.enable());
+        EXPECT_NEAR(b.followed(SetPoint::Mode::position, 6'000), 6'000, 1);
+    }
+}
+
 TEST(Cia402PdoPlan, EntriesThatTheDriveDoesNotMapAreLeftOut) {
     for (const int mask : {1, 2, 4, 5, 6, 7}) {
         SCOPED_TRACE(mask);

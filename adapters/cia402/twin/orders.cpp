@@ -91,6 +91,8 @@ void Orders::sync(unsigned cw, Instant now) {
     const bool on_its_way = step_ && step_->to == to && seconds(now - step_->at) < time - std::min(time / 4, 0.0005);
     if (on_its_way) return;
     step_ = Step{to, now};
+    const auto at = m_.demand(now);
+    if (at.position == to && at.velocity == 0) return;  // it stays where it is, and does not move
     m_.step_to(to, time, now);
 }
 

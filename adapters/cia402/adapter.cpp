@@ -139,7 +139,7 @@ Duration LineAdapter::wished_beat() const {
 void LineAdapter::plan_beats(Turn& t) {
     wished_ = wished_beat();
     canopen::TurnsWish wish{wished_, line_.bit_rate, axis_bits, target_bits, line_.targets.fullest(), {}};
-    drives_.each([&](const Drive& d) { wish.nodes.push_back({d.weight(), d.node.slot}); });
+    drives_.each([&](const Drive& d) { wish.nodes.push_back({d.node.weight, d.node.slot}); });
     auto plan = canopen::plan_turns(wish);
     if (!line_.targets.none() && plan.beat != line_.plan.beat) {  // drives that follow set-points calculate with the cycle: their streams
                                                                   // end when it may change

@@ -43,6 +43,20 @@ std::string Node::stored(Turn& t) {
     return text;
 }
 
+namespace {
+/// The reports of the axes in one cycle, in units of those of an axis with the gateway's mapping.
+int weight_of(const std::vector<std::unique_ptr<Axis>>& axes) noexcept {
+    int sum = 0;
+    for (const auto& a : axes) {
+        std::uint32_t bits = 0;
+        for (const canopen::Pdo& p : a->known.pdos.reports)
+            bits += canopen::most_bits(static_cast<std::uint32_t>(canopen::bits_of(p.mapping) / 8));
+        sum += std::max(1, static_cast<int>((bits + axis_bits - 1) / axis_bits));
+    }
+    return sum;
+}
+}  // namespace
+
 Drive::Drive(Line& line, const DriveSetup& setup, std::size_t slot)
     : node(line, setup, static_cast<std::uint8_t>(node_of(setup.address))),
       exchanges(*this, node),
@@ -68,7 +82,7 @@ Drive::Drive(Line& line, const DriveSetup& setup, std::size_t slot)
     watch.time = options.milliseconds("watchdog_ms", 100, 60'000, watch.time);
     if (node.dialect.places_move) node.places = moved_places(node.setup.options);
     fit_axes();
-    weight_ = weight();
+    node.weight = weight_of(axes);
 }
 
 void Drive::fit_axes() {
@@ -145,18 +159,8 @@ void Drive::made_ready(Turn& t) {
     for (const auto& a : axes)
         if (a->is_new()) a->made_ready(t.now);
     if (listeners() == 0) check_at_ = t.now + std::chrono::milliseconds(200);
-    if (const int weight = this->weight(); std::exchange(weight_, weight) != weight) node.line.plan_anew = true;
-}
-
-int Drive::weight() const noexcept {
-    int sum = 0;
-    for (const auto& a : axes) {
-        std::uint32_t bits = 0;
-        for (const canopen::Pdo& p : a->known.pdos.reports)
-            bits += canopen::most_bits(static_cast<std::uint32_t>(canopen::bits_of(p.mapping) / 8));
-        sum += std::max(1, static_cast<int>((bits + axis_bits - 1) / axis_bits));
-    }
-    return sum;
+    const int weight = weight_of(axes);
+    if (std::exchange(node.weight, weight) != weight) node.line.plan_anew = true;
 }
 
 void Drive::submit(const Command& c, Turn& t) {

@@ -50,8 +50,6 @@ public:
         return !node.only_reads && (listeners() > 0 || (node.presence.is(Presence::Phase::starting) && start.at_end()));
     }
     [[nodiscard]] bool quick() const noexcept;
-    /// Its reports in one cycle, in units of those of an axis with the gateway's mapping.
-    [[nodiscard]] int weight() const noexcept;
     /// An axis follows set-points, or rests in a cyclic mode: the SYNC keeps its period, because the drive may monitor it.
     [[nodiscard]] bool streams() const noexcept;
     /// It monitors the gateway's heartbeat, and answers.
@@ -96,7 +94,6 @@ private:
     [[nodiscard]] bool on_pdo(const Frame& frame, Turn& t);
 
     std::size_t slot_;
-    int weight_ = 1;
     std::size_t turn_ = 0;  ///< the axis that may use the SDO channel next
     drive::Pace pace_;
     Duration heartbeat_period_ = std::chrono::milliseconds(500);

@@ -50,7 +50,7 @@ Want Axis::wants(Instant now) const noexcept {
     if (!node.presence.is(Phase::ready)) return Want::nothing;
     if (node.stopped) return (job_ ? now >= job_->wait_until : !queue_.empty()) ? Want::command : Want::nothing;
     if (feedback.needs_error_code() || turns.wants(now) || rates.wants()) return Want::quick_poll;
-    if (job_ ? now >= job_->wait_until : begins(now)) return Want::command;
+    if (job_ ? now >= job_->wait_until : (!queue_.empty() || stream.waits()) && !feedback.doubts(now)) return Want::command;
     if (known.polled && now >= polled.due()) return Want::poll;
     return !job_ && now >= feedback.check_at() ? Want::poll : Want::nothing;
 }
@@ -62,7 +62,6 @@ Instant Axis::wish() const noexcept {
     if (node.stopped) return never;
     return queue_.empty() ? feedback.check_at() : std::min(feedback.check_at(), feedback.doubted_until());
 }
-bool Axis::begins(Instant now) const noexcept { return (!queue_.empty() || stream.waits()) && now >= feedback.doubted_until(); }
 
 std::optional<Ask> Axis::next(Turn& t) {
     const int retries = node.line.timing.retries;
@@ -76,9 +75,9 @@ std::optional<Ask> Axis::next(Turn& t) {
     if (!node.stopped) {
         if (auto own = next_of_its_own(t)) return own;
     }
-    while (!job_ && !queue_.empty() && (node.stopped || begins(t.now)))
+    while (!job_ && !queue_.empty() && (node.stopped || !feedback.doubts(t.now)))
         begin(queue_.pop(), t);
-    if (!job_ && stream.waits() && begins(t.now)) job_ = stream.begin(t);
+    if (!job_ && stream.waits() && !feedback.doubts(t.now)) job_ = stream.begin(t);
     if (job_ && t.now >= job_->wait_until) {
         const Step& s = job_->steps[job_->at];
         const bool once = std::holds_alternative<Native>(job_->command.body) && s.kind == Step::Kind::write;

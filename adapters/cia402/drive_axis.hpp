@@ -89,7 +89,6 @@ private:
     };
 
     [[nodiscard]] static Limits limits_of(const AxisSetup& setup) { return {setup.position_min, setup.position_max}; }
-    [[nodiscard]] bool begins(Instant now) const noexcept;  ///< the next order or stream may be planned
     void begin(Command command, Turn& t);
     [[nodiscard]] std::optional<Ask> next_of_its_own(Turn& t);
     /// A stop by the gateway itself: `planned` makes its steps; nullptr: the steps of `body` are planned when the stop is sent.

@@ -103,6 +103,7 @@ struct Node {
     DriveSetup setup;
     const Dialect dialect;
     std::uint8_t number;
+    int weight = 1;                                    ///< its reports in one cycle, in units of those of an axis
     int slot = -1;                                     ///< its cycles in the plan of the line
     bool stopped = false;                              ///< another NMT master has stopped it: no SDO answers and no PDOs
     Duration mode_timeout = std::chrono::seconds(1);   ///< from the write of 6060h until 6061h shows the mode

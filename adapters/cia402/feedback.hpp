@@ -24,6 +24,7 @@ public:
     /// The state of the axis is not known any more: orders wait for the next picture, but not for ever.
     void doubt(Instant now) noexcept { doubted_until_ = now + std::chrono::seconds(2); }
     [[nodiscard]] Instant doubted_until() const noexcept { return doubted_until_; }
+    [[nodiscard]] bool doubts(Instant now) const noexcept { return now < doubted_until_; }
     void forget() noexcept;
     /// The node has restarted: its set-up, its zero position and its orders are lost.
     void restarted();

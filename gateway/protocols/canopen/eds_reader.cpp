@@ -114,7 +114,8 @@ private:
             const std::string_view number = rest.substr(3);
             const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), sub, 16);
             if (error != std::errc{} || end != number.data() + number.size() || sub > 0xFF)
-                return note(s.line, fmt::format("[{}]: \"{}\" is no subindex (two hex digits): left out", shown_text(s.name), shown_text(number)));
+                return note(s.line,
+                            fmt::format("[{}]: \"{}\" is no subindex (two hex digits): left out", shown_text(s.name), shown_text(number)));
             const IniSection* object = ini_.find(s.name.substr(0, 4));
             if (object && is_definition(eds_whole(text_in(*object, "objecttype"), 0xFF).value_or(7))) return;
             if (!object && eds_.objects.try_emplace(index, EdsObject{"", EdsShape::record}).second)

@@ -16,9 +16,8 @@ namespace {
 /// Of each family and wire in a run.
 constexpr std::size_t drawn_in_a_run = 2;
 
-/// Families whose adapters do not keep the laws with every drive that can be drawn yet (aposs: 225, a relative move that begins while the
-/// shown position is still that of 190 ms ago; mcode on the network: 100, a move that is accepted and does not begin), or that have not
-/// been tried with 150 drives on each wire. Until they are, each run plays the same two drives.
+/// Families whose adapters do not keep the laws with every drive that can be drawn yet (mcode on the network: 100, a move that is accepted
+/// and does not begin), or that have not been tried with 150 drives on each wire. Until they are, each run plays the same two drives.
 constexpr std::array<std::string_view, 3> not_drawn_yet{"linmot", "aposs", "mcode"};
 constexpr std::array<std::uint32_t, 2> known_good{7, 9};
 

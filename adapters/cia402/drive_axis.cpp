@@ -11,6 +11,17 @@ namespace axisgate::cia402_drive {
 namespace {
 /// In the node's object dictionary.
 Address address_in_node(const Step& s, std::size_t axis) { return s.literal ? s.address : of_axis(s.address, axis); }
+
+/// A relative move counts from the target that was reached: the position of a drive at rest differs from it by its following error, and
+/// some drives show it late, so that the differences of several moves would add up. The engine has checked the way from the actual
+/// position; where the way from the target leads out of the site's limits, the actual position counts.
+std::optional<std::int64_t> counted_from(const AxisKnown& known, const Axis::Limits& limits, const CommandBody& body) {
+    const auto* m = std::get_if<Move>(&body);
+    if (!m || m->kind != Move::Kind::relative || known.order != Order::position || !known.at_target) return std::nullopt;
+    const std::int64_t to = saturated_sum(*known.target, m->target);
+    if ((limits[0] && to < *limits[0]) || (limits[1] && to > *limits[1])) return std::nullopt;
+    return known.target;
+}
 }  // namespace
 
 using drive::Want;
@@ -108,6 +119,7 @@ void Axis::begin(Command command, Turn& t) {
         return void(node.tickets.refused(job.command.ticket, Reason::wrong_state,
                                          "somebody else has stopped the node (NMT stop): it answers nothing until nmt_start starts it",
                                          t.out));
+    job.counts_from = counted_from(known, limits_, job.command.body);
     std::string why = plan(node, known, place_, job, t.now, reason);
     if (!why.empty()) return void(node.tickets.refused(job.command.ticket, reason, std::move(why), t.out));
     job_ = std::move(job);
@@ -309,7 +321,8 @@ void Axis::moves_now(const CommandBody& body, std::int64_t here, Turn& t) {
     if (std::holds_alternative<Home>(body)) feedback.ordered(Order::homing, {}, t);
     if (std::holds_alternative<SetPosition>(body)) {
         known.fb.referenced = true;
-        known.order = Order::none;  // the target was a number of before
+        known.target.reset();  // it was a number of before
+        known.at_target = false;
     }
     if (const auto* home = std::get_if<Home>(&body); home && home->method != 0) known.homing_method = home->method;
 }

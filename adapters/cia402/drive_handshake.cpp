@@ -66,8 +66,8 @@ std::string not_met(const AxisKnown& known, const Step& s, const canopen::SdoEnd
     switch (s.awaits) {
         case Step::Awaits::mode:
             return fmt::format(
-                "the drive has taken mode {} (6060h), and still shows mode {} (6061h) after {} ms: nothing was begun. Where "
-                "it needs longer, set its option mode_timeout_ms",
+                "the drive has taken mode {} (6060h) twice, and still shows mode {} (6061h) {} ms after the second time: nothing was "
+                "begun. Where it needs longer, set its option mode_timeout_ms",
                 static_cast<int>(static_cast<std::int8_t>(s.want)), signed_of(end.data), ms);
         case Step::Awaits::release:
             return fmt::format("the drive still acknowledges the set-point before after {} ms, so that it takes no other one: {}", ms,

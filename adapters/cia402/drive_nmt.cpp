@@ -46,8 +46,10 @@ void NmtWatch::wake(Turn& t) {
 void NmtWatch::back(Turn& t) {
     drive_.node.stopped = false;
     drive_.node.presence.report(drive_.start.title(), t.out);
-    for (const auto& a : drive_.axes)
-        a->feedback.begin(t.now), a->feedback.doubt(t.now);  // it may have lost its power meanwhile
+    for (const auto& a : drive_.axes) {
+        a->feedback.begin(t.now);
+        a->feedback.doubt(t.now);  // it may have lost its power meanwhile
+    }
 }
 
 void NmtWatch::silent(Turn& t) {

@@ -54,7 +54,8 @@ struct Job {
     Instant wait_until{};  ///< time of the next read
     Instant give_up = never;
     bool stream = false;
-    std::int64_t here = 0;  ///< the last value that was read
+    std::int64_t here = 0;                      ///< the last value that was read
+    std::optional<std::int64_t> counts_from{};  ///< of a relative move; empty: from the actual position
     std::vector<std::uint8_t> data;
     bool released = false;          ///< the drive has shown that it has seen bit 4 at 0
     bool begun = false;             ///< homing was seen in progress

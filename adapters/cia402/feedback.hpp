@@ -1,7 +1,6 @@
 // Feedback turns the PDOs of an axis into its feedback and monitors that they arrive. Feedback is reported when all PDOs of one SYNC have
-// arrived, so that it never mixes two instants. Values read by SDO that are newer than the last PDO are taken, too. If a
-// measured value is in none of them, the velocity is calculated from its positions, the demand is the position, and the mode is the one
-// that was ordered.
+// arrived, so that it never mixes two instants. Values read by SDO that are newer than the last PDO are taken, too. If a measured value is
+// in none of them, the velocity is calculated from the positions, the demand is the position, and the mode is the one that was ordered.
 #pragma once
 
 #include <optional>

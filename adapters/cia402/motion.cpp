@@ -78,7 +78,7 @@ std::string plan_enable(const Node& node, const AxisKnown& known, Job& job, Inst
         job.await(Step::Awaits::off, object::statusword, 0, 0, AxisKnown::oldest_report);
         job.steps.back().optional = true;
     }
-    if (is_halted(known) && known.on(now))
+    if (is_halted(known) && known.shows_on())
         leave_halt(node, known, job);
     else if (is_halted(known))  // halt alone is released; the power stays off
         job.word_seen(known.state() == 0x07 ? 0x0B : 0x06);
@@ -155,10 +155,8 @@ std::string plan_move(const Node& node, const AxisKnown& known, Job& job, const 
     }
     take_start_back(known, job);
     enter_mode(node, known, job, 1, is_halted(known));
-    // From the target that was reached: the position of a drive at rest differs from it by its following error, and some drives show it
-    // late, so that the differences of several relative moves would add up.
-    if (m.kind == Move::Kind::relative && known.order == Order::position && known.at_target)
-        job.here = *known.target;
+    if (m.kind == Move::Kind::relative && job.counts_from)
+        job.here = *job.counts_from;
     else if (m.kind == Move::Kind::relative)
         job.read(object::position);
     job.write(object::target_position, m.target, 4);

@@ -18,6 +18,12 @@ bool is_final(canopen::Abort abort) noexcept {
     using canopen::Abort;
     return abort == Abort::no_object || abort == Abort::no_subindex || abort == Abort::not_mappable || abort == Abort::pdo_length;
 }
+/// The values of the axis are read by SDO.
+void without_reports(AxisKnown& known) {
+    known.polled = true;
+    known.pdos.plan = PdoPlan::sdo;
+    known.pdos.reports.clear();
+}
 bool allows(const Node& node, PdoPlan plan) { return !node.pdo_plan || *node.pdo_plan == plan; }
 }  // namespace
 
@@ -31,10 +37,8 @@ void PdoSetUp::begin(std::vector<Wanted> wanted) {
     number_ = 1;
     off_.reset();
     if (drive_.node.pdo_plan == PdoPlan::sdo)
-        std::erase_if(wanted_, [](const Wanted& w) {
-            w.axis->known.polled = w.axis->known.polled || !w.target;
-            return !w.target;
-        });
+        for (const Wanted& w : wanted_)
+            if (!w.target) without_reports(w.axis->known);
     begin_pdo();
 }
 
@@ -223,11 +227,7 @@ void PdoSetUp::looked(const canopen::SdoEnd& end) {
 void PdoSetUp::go_without() {
     const Wanted& w = wanted_[at_];
     AxisKnown& known = w.axis->known;
-    if (!w.target) {
-        known.polled = true;
-        known.pdos.plan = PdoPlan::sdo;
-        known.pdos.reports.clear();
-    }
+    if (!w.target) without_reports(known);
     next_pdo();
 }
 

@@ -69,6 +69,29 @@ TEST(Cia402LateMode, AModeThatComesLateLosesNoMove) {
     }
 }
 
+/// Another master has set halt meanwhile, which this gateway does not know of; the drive drops the order without a word.
+TEST(Cia402LateMode, AModeThatTheDriveHasDroppedSilentlyIsOrderedAgain) {
+    Manners b({{"mode_refusal", "1"}, {"mode_refusal_silent", "1"}});
+    b.run(2s);
+    ASSERT_TRUE(b.enable());
+    b.deaf = true;
+    b.others(canopen::sdo_frame(0x605, 0x2B, {0x6040, 0}, 0x10F));
+    b.run(2ms);
+    b.deaf = false;
+    const Instant begun = b.now;
+    bool released = false;
+    b.crossed = [&](const Frame& f) {
+        b.note(f);
+        if (released || b.now < begun + 500ms) return;
+        released = true;
+        b.others(canopen::sdo_frame(0x605, 0x2B, {0x6040, 0}, 0x0F));
+    };
+    EXPECT_TRUE(good(b.ask(speed(5'000))));
+    b.run(500ms);
+    EXPECT_NEAR(b.speed(), 5'000, 1);
+    EXPECT_GT(b.now, begun + 1s) << "the first order was dropped";
+}
+
 TEST(Cia402LateMode, AModeThatDoesNotComeIsSaidAndDoesNotComeAboutLater) {
     Manners b;
     b.run(2s);
@@ -294,6 +317,29 @@ TEST(Cia402Relative, TheDifferencesOfMovesToTheirTargetsDoNotAddUp) {
     const double stood = b.place();
     by(1'000);
     EXPECT_NEAR(b.place() - stood, 1'000, 40) << "a target that was not reached counts for nothing";
+}
+
+/// The engine checks the limits from the actual position, so the way from the target must not lead farther.
+TEST(Cia402Relative, TheLimitsOfTheSiteHoldFromTheTargetAsWell) {
+    Manners b({{"friction_increments", "2"}});
+    b.setup.drives[0].axes[0].position_max = 10'000;
+    b.configure();
+    b.run(3s);
+    std::vector<std::int64_t> targets;
+    b.crossed = [&](const Frame& f) {
+        const auto d = f.data();
+        if (f.id == 0x605 && d.size() == 8 && d[0] >> 5 == 1 && d[1] == 0x7A && d[2] == 0x60) targets.push_back(signed_of(d.subspan(4)));
+    };
+    ASSERT_TRUE(b.enable());
+    ASSERT_TRUE(good(b.ask(LineBench::to(9'000))));
+    b.run(3s);
+    ASSERT_LT(b.axis.position, 9'000) << "it stands before its target";
+    Move m = LineBench::to(10'000 - b.axis.position);
+    m.kind = Move::Kind::relative;
+    ASSERT_TRUE(good(b.ask(m)));
+    b.run(2s);
+    ASSERT_FALSE(targets.empty());
+    EXPECT_EQ(targets.back(), 10'000);
 }
 
 // --- mappings, NMT ---------------------------------------------------------------------------------------------------------

@@ -97,6 +97,12 @@ class Process:
         self.log.close()
 
 
+def alone(test):
+    """Marks a test that compares instants of several programs: it runs when all others have ended."""
+    test.alone = True
+    return test
+
+
 class Folder:
     def __enter__(self):
         self.path = pathlib.Path(tempfile.mkdtemp(prefix="axisgate-test-"))

@@ -1,7 +1,7 @@
 """Finds and runs every test_* function of the test_*.py files beside it; each gets what it names: `folder`, `gateway`.
 
 In: the program, and parts of names; AXISGATE_SYSTEM_WORKERS (4): how many tests at a time, since they mostly wait. Each has its own folder,
-and every port is one that was free. Out: one line per test, then "N passed, N failed".
+and every port is one that was free. Tests that are marked `alone` run behind the others, one by one. Out: one line per test, then "N passed, N failed".
 """
 import concurrent.futures
 import contextlib
@@ -50,25 +50,30 @@ def attempt(stem, name):
             return False, f"{said.getvalue()}FAIL: {stem}.{name}\n{traceback.format_exc()}"
 
 
+def attempts(tests, workers):
+    """The results of `attempt`, as they come."""
+    with concurrent.futures.ProcessPoolExecutor(workers, multiprocessing.get_context("fork")) as pool:
+        running = {pool.submit(attempt, *test): test for test in tests}
+        for ended in concurrent.futures.as_completed(running):
+            try:
+                yield ended.result()
+            except concurrent.futures.process.BrokenProcessPool as e:
+                yield False, "FAIL: {}.{}: {}".format(*running[ended], e)
+
+
 def main():
     harness.PROGRAM = str(pathlib.Path(sys.argv[1]).resolve())
-    wanted = []
+    wanted, alone = [], []
     for path in sorted(HERE.glob("test_*.py")):
         module = importlib.import_module(path.stem)
         for name, function in inspect.getmembers(module, inspect.isfunction):
             if not name.startswith("test_") or function.__module__ != path.stem:
                 continue
             if len(sys.argv) <= 2 or any(part in f"{path.stem}.{name}" for part in sys.argv[2:]):
-                wanted.append((path.stem, name))
+                (alone if getattr(function, "alone", False) else wanted).append((path.stem, name))
     passed = failed = 0
-    workers = int(os.environ.get("AXISGATE_SYSTEM_WORKERS", "4"))
-    with concurrent.futures.ProcessPoolExecutor(workers, multiprocessing.get_context("fork")) as pool:
-        running = {pool.submit(attempt, *test): test for test in wanted}
-        for ended in concurrent.futures.as_completed(running):
-            try:
-                good, text = ended.result()
-            except concurrent.futures.process.BrokenProcessPool as e:
-                good, text = False, "FAIL: {}.{}: {}".format(*running[ended], e)
+    for tests, workers in ((wanted, int(os.environ.get("AXISGATE_SYSTEM_WORKERS", "4"))), (alone, 1)):
+        for good, text in attempts(tests, workers):
             passed += good
             failed += not good
             print(text, flush=True)

@@ -37,7 +37,7 @@ FIND_S, MOVE_S, REST_S = 60.0, 45.0, 12.0   # bounds of a step: the slowest spec
 CLOSE = 40                                  # increments: friction, play and noise of the weakest specimen, with a reserve
 SPEED, RAMP = 10000, 20000                  # the motor of each specimen can follow this ramp
 STREAM_SPEED, STREAM_RAMP = 8000, 30000
-LATE_S = 0.2                                # by which one report of the place may be older than it says, on a busy computer
+LATE_S = 0.06                               # by which one report of the place may be older than it says, on a busy computer
 # How long a drive may take; a program that does not know these options is tried without them.
 PATIENCE = {"mode_timeout_ms": "10000", "start_timeout_ms": "10000"}
 

@@ -10,6 +10,7 @@ import specimen_trial
 SEEDS = ("19", "22", "43", "53", "57")
 
 
+@harness.alone
 def test_drives_that_earlier_programs_did_not_serve():
     plan = types.SimpleNamespace(program=harness.PROGRAM, twins=harness.PROGRAM, can=None, watches=False, most=3, once=False)
     results = list(specimen_trial.tried(plan, [(seed, seed, {}) for seed in SEEDS], 2))

@@ -69,6 +69,7 @@ std::string SpecimenDay::in_words() const {
 }
 
 const Result* SpecimenDay::ask(CommandBody body, bool until_done, Duration limit) {
+    told_before_ = world->events.size();
     return world->wait(world->command(axis, std::move(body), until_done), limit);
 }
 
@@ -113,7 +114,8 @@ Move SpecimenDay::gently(std::int64_t target, Move::Kind kind) const {
 
 bool SpecimenDay::gave_up() const {
     const auto told = [&](std::string_view kind) {
-        return std::ranges::any_of(world->events, [&](const Event& v) { return v.kind == kind && !v.text.empty(); });
+        return std::any_of(world->events.begin() + static_cast<std::ptrdiff_t>(std::min(told_before_, world->events.size())),
+                           world->events.end(), [&](const Event& v) { return v.kind == kind && !v.text.empty(); });
     };
     const PowerState state = power_state_of(now().statusword);
     if (freedom(values, "most_acceleration") != 0 && state == PowerState::fault && told("fault")) return true;

@@ -68,10 +68,13 @@ private:
     /// The same with ramps that the motor of this specimen can follow, where the law is not about its strength.
     [[nodiscard]] Move gently(std::int64_t target, Move::Kind kind) const;
     [[nodiscard]] std::int64_t gentle_ramp() const;
-    /// A motor that lacks force ends its motion with the drive's own fault, which is shown and told.
+    /// Since the last order, a motor that lacks force has ended its motion with the drive's own fault, or another master has stopped the
+    /// drive, which has lost its power by that. Both are shown and told.
     [[nodiscard]] bool gave_up() const;
     void told_as_not_done(const Result& r);
     void stops_and_serves();
+
+    std::size_t told_before_ = 0;  ///< number of events before the last order
 };
 
 }  // namespace axisgate::test

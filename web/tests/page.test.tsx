@@ -330,14 +330,14 @@ describe('alarms and pages', () => {
   });
   it('says what went wrong where a list should be, and what this gateway does not offer', async () => {
     route.value = { page: 'mappings' };
-    await vi.waitFor(() => expect(text('main')).toContain('The store is shut'), { timeout: 20_000 });
+    await vi.waitFor(() => expect(text('main')).toContain('The store is shut'));
     route.value = { page: 'site' };
-    await vi.waitFor(() => expect(text('main')).toMatch(/^Site.*The store is shut/), { timeout: 20_000 });
+    await vi.waitFor(() => expect(text('main')).toMatch(/^Site.*The store is shut/));
     route.value = { page: 'parameters', name: 'feeder' };
-    await vi.waitFor(() => expect(text('main')).toContain('This gateway does not offer snapshots.'), { timeout: 20_000 });
+    await vi.waitFor(() => expect(text('main')).toContain('This gateway does not offer snapshots.'));
   });
   it.each([{ page: 'axis', name: 'feeder', tab: 'move' }, { page: 'axis', name: 'feeder', tab: 'drive' }, { page: 'axis', name: 'feeder', tab: 'events' }, { page: 'lines' }, { page: 'line', name: 'can0' }, { page: 'events' }, { page: 'gateway' }, { page: 'mappings' }, { page: 'parameters', name: 'feeder' }, { page: 'site' }] as const)('draws %o with one heading', async (r) => {
     route.value = r;
-    await vi.waitFor(() => expect(root.querySelectorAll('main h1')).toHaveLength(1), { timeout: 20_000 }); // its code may have yet to come
+    await vi.waitFor(() => expect(root.querySelectorAll('main h1')).toHaveLength(1)); // its code may have yet to come
   });
 });

@@ -127,7 +127,8 @@ void LineAdapter::plan_heartbeat(Instant now) {
     constexpr Duration usual = std::chrono::milliseconds(50);  // one hundredth of a bus at 125 kbit/s
     Duration period{};
     drives_.each([&](const Drive& d) {
-        if (up_ && d.watches()) period = std::min(period == Duration::zero() ? usual : period, d.node.watch.time / 4);
+        const Duration time = up_ ? d.watch_time() : Duration::zero();
+        if (time != Duration::zero()) period = std::min(period == Duration::zero() ? usual : period, time / 4);
     });
     if (std::exchange(heartbeat_period_, period) != period) heartbeat_.set_period(period, now);
 }

@@ -52,9 +52,10 @@ public:
     [[nodiscard]] bool quick() const noexcept;
     /// An axis follows set-points, or rests in a cyclic mode: the SYNC keeps its period, because the drive may monitor it.
     [[nodiscard]] bool streams() const noexcept;
-    /// It monitors the gateway's heartbeat, and answers.
-    [[nodiscard]] bool watches() const noexcept {
-        return node.presence.online() && node.presence.watchdog().state == DriveWatchdog::State::armed;
+    /// Within which it expects the gateway's heartbeat; zero: it does not monitor it, or does not answer.
+    [[nodiscard]] Duration watch_time() const noexcept {
+        if (!node.presence.online()) return {};
+        return node.presence.watchdog().state == DriveWatchdog::State::armed ? node.watch.time : start.watched();
     }
     /// The gateway's node number has changed: the node is set up again, and remains in operation meanwhile.
     void watch_anew() {

@@ -119,14 +119,19 @@ void Start::limit_set(const Step& step, const Axis& axis, const canopen::SdoEnd&
 
 /// 1016h:01 contains the monitored node number and the time in ms; monitoring begins with the first heartbeat after the write. The reaction
 /// is written first. A drive that has monitored this gateway before and no longer shall must not detect a missing heartbeat.
+Duration Start::watched() const noexcept {
+    const Node& node = drive_.node;
+    if (node.only_reads || drive_.axes.empty() || ((watched_ >> 16) & 0x7Fu) != node.line.own_node) return {};
+    return std::chrono::milliseconds(watched_ & 0xFFFFu);
+}
+
 void Start::set_up_watch() {
     const Watch& watch = drive_.node.watch;
-    const bool watched = ((watched_ >> 16) & 0x7Fu) == drive_.node.line.own_node && (watched_ & 0xFFFFu) != 0;
     if (!watch.on)
         drive_.node.presence.watched({DriveWatchdog::State::off, {}, {}});
     else if (drive_.node.presence.watchdog().state == DriveWatchdog::State::refused)
         drive_.node.presence.watched({});
-    if (!watch.on && !watched) return;
+    if (!watch.on && watched() == Duration::zero()) return;
     const std::int64_t entry = watch.on ? std::int64_t{drive_.node.line.own_node} << 16 | milliseconds_of(watch.time) : 0;
     if (watch.on) steps_.push_back({{Step::Kind::write, object::connection_lost_option, bytes_of(watch.option, 2), 0, 0, true}});
     steps_.push_back({{Step::Kind::write, object::watched_heartbeat, bytes_of(entry, 4), 0, 0, true}});
@@ -196,6 +201,7 @@ void Start::answered(const canopen::SdoEnd& end, Turn& t) {
     } else if (step.address == object::heartbeat) {
         drive_.beats(end.done() ? drive_.heartbeat_period() : Duration::zero());
     } else if (step.kind == Step::Kind::write) {
+        if (step.address == object::watched_heartbeat && end.done()) watched_ = static_cast<std::uint32_t>(canopen::low_first(step.bytes));
         watch_set(step, end, t);
     } else if (step.address == object::watched_heartbeat) {
         watched_ = static_cast<std::uint32_t>(end.done() ? canopen::low_first(end.data) : 0);

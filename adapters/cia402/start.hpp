@@ -27,6 +27,9 @@ public:
     /// The set-up may be lost: it is repeated when it is due.
     void forget() noexcept { steps_.clear(); }
     void next(Turn& t);
+    /// Within which the node expects the heartbeat of this gateway since before the set-up, which may last longer than that; zero: it does
+    /// not.
+    [[nodiscard]] Duration watched() const noexcept;
     /// "CiA 402 drive, vendor 99h, product 1h, revision 1h".
     [[nodiscard]] std::string title() const;
     /// The set-up is complete except for NMT start.
@@ -60,7 +63,7 @@ private:
     ExpectedIdentity expected_;  ///< from the description, if the site names one
     Identity reported_;
     std::size_t limits_open_ = 0;  ///< outstanding writes of 607Dh
-    std::uint32_t watched_ = 0;    ///< 1016h:01 as it was read
+    std::uint32_t watched_ = 0;    ///< 1016h:01 as it was read, or written since
 };
 
 }  // namespace axisgate::cia402_drive

@@ -86,9 +86,10 @@ void Drive::go(Turn& t) {
     }
     while (!running_ && !queue_.empty())
         begin(queue_.pop(), t);
-    if (renewal_ && t.now >= renewal_->next) {
-        renewal_->number = send(renewal_->order, Priority::command, t);
-        renewal_->next = t.now + renewed;
+    for (auto* r : {&renewal_, &asked_}) {
+        if (!*r || t.now < (*r)->next) continue;
+        (*r)->number = send((*r)->order, Priority::command, t);
+        (*r)->next = t.now + renewed;
     }
     if (!poll_.active() && timer_.due(t.now)) ask(t);
 }
@@ -98,7 +99,8 @@ Instant Drive::deadline() const noexcept {
     Instant first = std::min(poll_.deadline(), running_ ? running_->until : never);
     stops_.each([&](const Stop& s) { first = std::min(first, s.again); });
     if (!poll_.active()) first = std::min(first, presence_.online() ? timer_.deadline() : presence_.deadline());
-    if (renewal_) first = std::min(first, renewal_->next);
+    for (const auto* r : {&renewal_, &asked_})
+        if (*r) first = std::min(first, (*r)->next);
     return first;
 }
 
@@ -116,6 +118,7 @@ void Drive::on_deadline(Turn& t) {
                         "the gateway of " + setup_.address + " did not answer in time: whether the command was carried out is not known",
                         t.out);
         running_.reset();
+        asked_.reset();
     }
     if (poll_.on_deadline(t.now, line_.counters) == drive::Late::over) asked_in_vain("the mirror line does not answer", false, t);
 }
@@ -163,8 +166,8 @@ void Drive::on_telegram(const Telegram& telegram, Turn& t) {
             ++line_.counters.exchanges;
             answered(*answer, t);
         } else if (renewal_ && renewal_->number == telegram.number) {
-            // The motion has ended at the other gateway: there is nothing to renew.
-            if (answer->outcome != Outcome::accepted && answer->outcome != Outcome::done && answer->reason != Reason::busy)
+            // The motion has ended at the other gateway: there is nothing to renew. While it decides about another one, it refuses both.
+            if (!asked_ && answer->outcome != Outcome::accepted && answer->outcome != Outcome::done && answer->reason != Reason::busy)
                 renewal_.reset();
         } else if (telegram.number >= line_.next || telegram.number == 0) {
             ++line_.counters.unexpected;

@@ -91,8 +91,8 @@ private:
     drive::Pace pace_;
     std::optional<Running> running_;
     std::optional<Renewal> renewal_;
-    std::optional<Renewal> asked_;  ///< of the velocity move that was requested: in force once that is accepted, because a refusal changes
-                                    ///< nothing
+    std::optional<Renewal> asked_;  ///< of the velocity move that was requested, which may turn before its answer comes; replaces renewal_
+                                    ///< once that is accepted, because a refusal changes nothing
     AxisFeedback axis_;
     Instant begun_{};           ///< when the last motion was accepted
     std::uint64_t newest_ = 0;  ///< the highest number of the requests that moved the axis: states that were requested before are older

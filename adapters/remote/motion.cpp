@@ -17,7 +17,7 @@ void Drive::begin(Command command, Turn& t) {
     const std::uint64_t number = send(order, Priority::command, t);
     if (moves || std::holds_alternative<SetPosition>(command.body)) newest_ = number;
     if (order.hold_ms) {
-        Renewal r{order, 0, never};
+        Renewal r{order, 0, t.now + renewed};
         r.order.renew = true;
         r.order.wait_ms = milliseconds_of(renewed);
         asked_ = std::move(r);
@@ -73,7 +73,8 @@ void Drive::answered(const mirror::Answer& answer, Turn& t) {
         axis_.homing_attained = axis_.homing_error = false;
         emit(t);
         renewal_ = std::exchange(asked_, std::nullopt);
-        if (renewal_) renewal_->next = t.now + renewed;
+        // A renewal that was sent before may be refused because it came before the motion.
+        if (renewal_) renewal_->number = 0;
     }
     finish(answer, t);
 }

@@ -376,8 +376,7 @@ TEST(Cia402PdoSetup, ANodeThatMovesIsNotSentToPreOperational) {
     for (const char* setup : {"1", "2"}) {
         for (const bool same : {true, false}) {
             SCOPED_TRACE(fmt::format("{}, {}", setup, same ? "PDOs as this gateway sets them" : "PDOs of others"));
-            // The drive's own monitoring would stop it although nobody knows that it is active.
-            Manners b({{"pdo_setup", setup}}, {{"watchdog_action", "none"}});
+            Manners b({{"pdo_setup", setup}});  // it monitors the heartbeat of the gateway before, and goes on with that of this one
             b.run(2s);
             ASSERT_TRUE(b.enable());
             ASSERT_TRUE(good(b.ask(speed(8'000))));

@@ -275,6 +275,45 @@ TEST_F(Bench, AVelocityMoveIsHeldAndRenewedUntilItHasEnded) {
     EXPECT_TRUE(orders().empty()) << "it has ended there: nothing is renewed";
 }
 
+/// The motion may turn before its answer comes, and a renewal that overtakes it is refused.
+TEST_F(Bench, AVelocityMoveIsHeldWhileItsAnswerIsAwaited) {
+    come_up();
+    ask(move_of(Move::Kind::velocity, -300));
+    const std::uint64_t order = orders().at(0).number;
+    std::size_t renewed = 0;
+    const auto pass_and_refuse = [&](int times) {
+        for (int i = 0; i < times; ++i) {
+            pass(50ms);
+            for (const auto& t : std::exchange(sent, {})) {
+                if (t.body == "state") say(Telegram::Kind::state, t.number, body_of(standing()));
+                if (t.body.find("renew=1") == std::string::npos) continue;
+                ++renewed;
+                say(Telegram::Kind::answer, t.number, "refused wrong_state 0 not yet");
+            }
+        }
+    };
+    sent.clear();
+    pass_and_refuse(60);
+    EXPECT_EQ(renewed, 5u) << "in three seconds";
+    pass(500ms);
+    const auto on_its_way = orders();
+    say(Telegram::Kind::answer, order, "accepted none 0 ");
+    for (const auto& t : on_its_way)
+        say(Telegram::Kind::answer, t.number, "refused wrong_state 0 not yet");
+    sent.clear();
+    pass(650ms);
+    EXPECT_EQ(orders().size(), 1u) << "a refusal of a renewal from before the answer says nothing";
+    ask(move_of(Move::Kind::velocity, 700));
+    say(Telegram::Kind::answer, orders().back().number, "refused out_of_range 0 no");
+    ask(move_of(Move::Kind::velocity, 800));
+    pass(7s);
+    EXPECT_EQ(results.back().reason, Reason::no_answer);
+    sent.clear();
+    pass(3s);
+    for (const auto& t : orders())
+        EXPECT_EQ(t.body.find("v=800"), std::string::npos) << "nobody knows whether it turns: it is not held";
+}
+
 /// A motion that the other gateway refuses ends nothing there, so the motion in progress is still renewed.
 TEST_F(Bench, ARefusedMotionDoesNotEndTheRenewalOfTheOneUnderWay) {
     come_up();
